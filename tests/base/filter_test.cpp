@@ -19,9 +19,8 @@ using test::largest_difference;
 
 Grid<float> noise_grid(int width, int height, std::uint64_t seed) {
   Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) grid(x, y) = static_cast<float>(random_uniform(seed, x, y));
-  }
+  for (const auto [x, y] : test::cells(width, height))
+    grid(x, y) = static_cast<float>(random_uniform(seed, x, y));
   return grid;
 }
 
@@ -43,19 +42,15 @@ Grid<float> reference_blur(const Grid<float>& values, double sigma_x, double sig
   const int ry = static_cast<int>(ky.size() / 2);
   Grid<double> rows(values.width(), values.height());
   Grid<float> out(values.width(), values.height());
-  for (int y = 0; y < values.height(); ++y) {
-    for (int x = 0; x < values.width(); ++x) {
-      for (int k = -rx; k <= rx; ++k)
-        rows(x, y) += kx[static_cast<std::size_t>(k + rx)] * values.clamped(x + k, y);
-    }
+  for (const auto [x, y] : test::cells(values)) {
+    for (int k = -rx; k <= rx; ++k)
+      rows(x, y) += kx[static_cast<std::size_t>(k + rx)] * values.clamped(x + k, y);
   }
-  for (int y = 0; y < values.height(); ++y) {
-    for (int x = 0; x < values.width(); ++x) {
-      double sum = 0.0;
-      for (int k = -ry; k <= ry; ++k)
-        sum += ky[static_cast<std::size_t>(k + ry)] * rows.clamped(x, y + k);
-      out(x, y) = static_cast<float>(sum);
-    }
+  for (const auto [x, y] : test::cells(values)) {
+    double sum = 0.0;
+    for (int k = -ry; k <= ry; ++k)
+      sum += ky[static_cast<std::size_t>(k + ry)] * rows.clamped(x, y + k);
+    out(x, y) = static_cast<float>(sum);
   }
   return out;
 }
@@ -67,9 +62,7 @@ TEST_P(BlurAgainstDefinition, OnWhiteNoiseAndStep) {
   for (const auto& [width, height] : {std::pair{97, 120}, std::pair{64, 33}, std::pair{3, 151}}) {
     Grid<float> values = noise_grid(width, height, 3);
     // A step as high as the noise, the worst possible edge.
-    for (int y = 0; y < height; ++y) {
-      for (int x = width / 2; x < width; ++x) values(x, y) += 1.0F;
-    }
+    for (const auto [x, y] : test::cells({width / 2, 0, width, height})) values(x, y) += 1.0F;
     const double error = largest_difference(gaussian_blur(values, sigma, 0.7 * sigma),
                                             reference_blur(values, sigma, 0.7 * sigma));
     // Both axes may halve the resolution; the header promises 3e-4 of the range, which is 2 here.
@@ -89,11 +82,9 @@ TEST(GaussianBlur, KeepsAConstantAndTheMeanOfAnImpulse) {
     const Grid<float> blurred = gaussian_blur(impulse, sigma);
     double sum = 0.0;
     double variance = 0.0;
-    for (int y = 0; y < 401; ++y) {
-      for (int x = 0; x < 401; ++x) {
-        sum += blurred(x, y);
-        variance += blurred(x, y) * (x - 200.0) * (x - 200.0);
-      }
+    for (const auto [x, y] : test::cells(401, 401)) {
+      sum += blurred(x, y);
+      variance += blurred(x, y) * (x - 200.0) * (x - 200.0);
     }
     EXPECT_NEAR(sum, 1.0, 2e-4) << sigma;
     EXPECT_NEAR(std::sqrt(variance / sum), sigma, 0.005 * sigma) << sigma;
@@ -130,19 +121,17 @@ TEST(WindowExtremes, EqualBruteForce) {
       const Grid<float> low = window_minimum(values, radius);
       const Grid<float> high = window_maximum(values, radius);
       const int reach = std::min(radius, 60);
-      for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-          float smallest = values(x, y);
-          float largest = values(x, y);
-          for (int v = y - reach; v <= y + reach; ++v) {
-            for (int u = x - reach; u <= x + reach; ++u) {
-              smallest = std::min(smallest, values.clamped(u, v));
-              largest = std::max(largest, values.clamped(u, v));
-            }
+      for (const auto [x, y] : test::cells(width, height)) {
+        float smallest = values(x, y);
+        float largest = values(x, y);
+        for (int v = y - reach; v <= y + reach; ++v) {
+          for (int u = x - reach; u <= x + reach; ++u) {
+            smallest = std::min(smallest, values.clamped(u, v));
+            largest = std::max(largest, values.clamped(u, v));
           }
-          ASSERT_EQ(low(x, y), smallest) << x << ' ' << y << " radius " << radius;
-          ASSERT_EQ(high(x, y), largest) << x << ' ' << y << " radius " << radius;
         }
+        ASSERT_EQ(low(x, y), smallest) << x << ' ' << y << " radius " << radius;
+        ASSERT_EQ(high(x, y), largest) << x << ' ' << y << " radius " << radius;
       }
     }
   }
@@ -153,27 +142,22 @@ TEST(NearestMarked, EqualsBruteForceTiesIncluded) {
     for (const double share : {0.002, 0.02, 0.2, 0.7}) {
       for (std::uint64_t seed = 0; seed < 8; ++seed) {
         Grid<std::uint8_t> mask(width, height);
-        for (int y = 0; y < height; ++y) {
-          for (int x = 0; x < width; ++x)
-            mask(x, y) = random_uniform(seed, x, y, 7) < share ? 255 : 0;
-        }
+        for (const auto [x, y] : test::cells(width, height))
+          mask(x, y) = random_uniform(seed, x, y, 7) < share ? 255 : 0;
         const Grid<std::int32_t> nearest = nearest_marked(mask);
-        for (int y = 0; y < height; ++y) {
-          for (int x = 0; x < width; ++x) {
-            int best = -1;
-            int best_distance = 0;
-            for (int i = 0; i < width * height; ++i) {
-              if (mask[static_cast<std::size_t>(i)] == 0) continue;
-              const int dx = i % width - x;
-              const int dy = i / width - y;
-              if (best < 0 || dx * dx + dy * dy < best_distance) {
-                best = i;
-                best_distance = dx * dx + dy * dy;
-              }
+        for (const auto [x, y] : test::cells(width, height)) {
+          int best = -1;
+          int best_distance = 0;
+          for (int i = 0; i < width * height; ++i) {
+            if (mask[static_cast<std::size_t>(i)] == 0) continue;
+            const int dx = i % width - x;
+            const int dy = i / width - y;
+            if (best < 0 || dx * dx + dy * dy < best_distance) {
+              best = i;
+              best_distance = dx * dx + dy * dy;
             }
-            ASSERT_EQ(nearest(x, y), best)
-                << x << ' ' << y << " seed " << seed << " share " << share;
           }
+          ASSERT_EQ(nearest(x, y), best) << x << ' ' << y << " seed " << seed << " share " << share;
         }
       }
     }
@@ -189,9 +173,7 @@ TEST(NearestMarked, EmptyMaskGivesMinusOne) {
 TEST(Sampling, BilinearIsExactOnBilinearFunctionsAndReplicatesBorders) {
   Grid<float> values(9, 7);
   const auto f = [](double x, double y) { return 3.0 + 2.0 * x - y + 0.25 * x * y; };
-  for (int y = 0; y < 7; ++y) {
-    for (int x = 0; x < 9; ++x) values(x, y) = static_cast<float>(f(x, y));
-  }
+  for (const auto [x, y] : test::cells(9, 7)) values(x, y) = static_cast<float>(f(x, y));
   EXPECT_FLOAT_EQ(sample_bilinear(values, 3.0, 2.0), values(3, 2));
   EXPECT_NEAR(sample_bilinear(values, 3.7, 4.2), f(3.7, 4.2), 1e-5);
   EXPECT_FLOAT_EQ(sample_bilinear(values, -1e12, 1e12), values(0, 6));
@@ -205,11 +187,9 @@ TEST(Sampling, BilinearIsExactOnBilinearFunctionsAndReplicatesBorders) {
 TEST(Sampling, BsplineReproducesLinesAndSmoothsParabolas) {
   Grid<float> line(20, 20);
   Grid<float> parabola(20, 20);
-  for (int y = 0; y < 20; ++y) {
-    for (int x = 0; x < 20; ++x) {
-      line(x, y) = static_cast<float>(5.0 - 1.5 * x + 0.5 * y);
-      parabola(x, y) = static_cast<float>(x * x);
-    }
+  for (const auto [x, y] : test::cells(20, 20)) {
+    line(x, y) = static_cast<float>(5.0 - 1.5 * x + 0.5 * y);
+    parabola(x, y) = static_cast<float>(x * x);
   }
   EXPECT_NEAR(sample_bspline(line, 7.3, 11.8), 5.0 - 1.5 * 7.3 + 0.5 * 11.8, 1e-5);
   // A cubic B-spline has the variance 1/3, so x² becomes x² + 1/3 everywhere.

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numeric>
 
+#include "tests/grids.h"
+
 namespace belvedere {
 namespace {
 
@@ -71,9 +73,8 @@ TEST(GridPart, APartHasTheValuesOfItsRectangle) {
   const Grid<int> part = part_of(whole, {2, 30, 6, 195});
   ASSERT_EQ(part.width(), 4);
   ASSERT_EQ(part.height(), 165);
-  for (int y = 0; y < part.height(); ++y)
-    for (int x = 0; x < part.width(); ++x)
-      ASSERT_EQ(part(x, y), (y + 30) * 7 + x + 2) << x << ", " << y;
+  for (const auto [x, y] : test::cells(part))
+    ASSERT_EQ(part(x, y), (y + 30) * 7 + x + 2) << x << ", " << y;
 }
 
 TEST(GridPart, CopyingAPartBackChangesItsRectangleAlone) {
@@ -81,11 +82,10 @@ TEST(GridPart, CopyingAPartBackChangesItsRectangleAlone) {
   const PixelRect rect{2, 30, 6, 195};
   Grid<int> blank(7, 200, -1);
   copy_part(blank, part_of(whole, rect), rect.x0, rect.y0);
-  for (int y = 0; y < whole.height(); ++y)
-    for (int x = 0; x < whole.width(); ++x) {
-      const bool inside = x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1;
-      ASSERT_EQ(blank(x, y), inside ? whole(x, y) : -1) << x << ", " << y;
-    }
+  for (const auto [x, y] : test::cells(whole)) {
+    const bool inside = x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1;
+    ASSERT_EQ(blank(x, y), inside ? whole(x, y) : -1) << x << ", " << y;
+  }
 }
 
 TEST(GridPart, AnEmptyPartIsNothing) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/grid.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -50,9 +51,7 @@ TEST(ParallelTiles, CoverTheGridOnceWithoutOverlap) {
       EXPECT_LE(r.height(), tile);
       EXPECT_EQ(r.x0 % tile, 0);
       EXPECT_EQ(r.y0 % tile, 0);
-      for (int y = r.y0; y < r.y1; ++y) {
-        for (int x = r.x0; x < r.x1; ++x) ++visits(x, y);
-      }
+      for (const auto [x, y] : test::cells(r)) ++visits(x, y);
     });
     EXPECT_EQ(visits, Grid<int>(101, 67, 1)) << tile;
   }

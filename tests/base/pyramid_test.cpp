@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -22,13 +21,10 @@ using test::largest_difference;
 // 5000 m of relief with detail in every band.
 Grid<float> rough_terrain(int width, int height) {
   Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double broad =
-          1800.0 * std::sin(x / 60.0) * std::cos(y / 45.0) + 400.0 * std::sin(x / 5.0 + y / 7.0);
-      grid(x, y) =
-          static_cast<float>(2500.0 + broad + 300.0 * (2.0 * random_uniform(4, x, y) - 1.0));
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const double broad =
+        1800.0 * std::sin(x / 60.0) * std::cos(y / 45.0) + 400.0 * std::sin(x / 5.0 + y / 7.0);
+    grid(x, y) = static_cast<float>(2500.0 + broad + 300.0 * (2.0 * random_uniform(4, x, y) - 1.0));
   }
   return grid;
 }
@@ -82,10 +78,8 @@ TEST(Pyramid, RampStaysARampWhateverTheWeights) {
   for (const auto& [width, height] :
        {std::pair{64, 64}, std::pair{65, 50}, std::pair{7, 3}, std::pair{130, 2}}) {
     Grid<float> ramp(width, height);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x)
-        ramp(x, y) = 100.F + 12.5F * static_cast<float>(x) - 7.25F * static_cast<float>(y);
-    }
+    for (const auto [x, y] : test::cells(width, height))
+      ramp(x, y) = 100.F + 12.5F * static_cast<float>(x) - 7.25F * static_cast<float>(y);
     const Grid<float> out =
         weighted_sum(make_laplacian_pyramid(ramp, 5), {0.F, 3.F, 0.5F, 5.F, 2.F});
     EXPECT_LE(largest_difference(out, ramp), 5e-3) << width << " x " << height;
@@ -96,15 +90,11 @@ TEST(Pyramid, ReduceKeepsARampOnGridsOfTwoCells) {
   for (const auto& [width, height] :
        {std::pair{2, 2}, std::pair{9, 2}, std::pair{2, 9}, std::pair{3, 3}}) {
     Grid<float> ramp(width, height);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x)
-        ramp(x, y) = 10.F + 3.F * static_cast<float>(x) - 5.F * static_cast<float>(y);
-    }
+    for (const auto [x, y] : test::cells(width, height))
+      ramp(x, y) = 10.F + 3.F * static_cast<float>(x) - 5.F * static_cast<float>(y);
     const Grid<float> half = reduce(ramp);
-    for (int y = 0; y < half.height(); ++y) {
-      for (int x = 0; x < half.width(); ++x)
-        EXPECT_NEAR(half(x, y), ramp(2 * x, 2 * y), 1e-4) << width << " x " << height;
-    }
+    for (const auto [x, y] : test::cells(half))
+      EXPECT_NEAR(half(x, y), ramp(2 * x, 2 * y), 1e-4) << width << " x " << height;
   }
 }
 
@@ -134,9 +124,7 @@ double kernel_gain(double w) { return 0.4 + 0.5 * std::cos(w) + 0.1 * std::cos(2
 double band_gain(int level, int periods, int cells) {
   const double w = 2.0 * std::numbers::pi * periods / cells;
   Grid<float> wave(4 * cells, 40);
-  for (int y = 0; y < wave.height(); ++y) {
-    for (int x = 0; x < wave.width(); ++x) wave(x, y) = static_cast<float>(std::cos(w * x));
-  }
+  for (const auto [x, y] : test::cells(wave)) wave(x, y) = static_cast<float>(std::cos(w * x));
   const LaplacianPyramid pyramid = make_laplacian_pyramid(wave, level + 1);
   const Grid<float>& band = pyramid.bands[static_cast<std::size_t>(level)];
   const int step = 1 << level;
@@ -185,15 +173,12 @@ TEST(Pyramid, ReduceEqualsTheDefinition) {
       return along(x, values.width(), [&](int u) { return static_cast<double>(values(u, v)); });
     });
   };
-  for (int y = 0; y < half.height(); ++y) {
-    for (int x = 0; x < half.width(); ++x) {
-      double sum = 0.0;
-      for (int j = -2; j <= 2; ++j) {
-        for (int i = -2; i <= 2; ++i)
-          sum += kernel[i + 2] * kernel[j + 2] * at(2 * x + i, 2 * y + j);
-      }
-      ASSERT_NEAR(half(x, y), sum, 2e-3) << x << ' ' << y;
+  for (const auto [x, y] : test::cells(half)) {
+    double sum = 0.0;
+    for (int j = -2; j <= 2; ++j) {
+      for (int i = -2; i <= 2; ++i) sum += kernel[i + 2] * kernel[j + 2] * at(2 * x + i, 2 * y + j);
     }
+    ASSERT_NEAR(half(x, y), sum, 2e-3) << x << ' ' << y;
   }
 }
 
@@ -208,9 +193,7 @@ TEST(Pyramid, SameBitsForAnyThreadCount) {
 
 // x² / 2: the kernel adds half its mean square, 0.9 cells² by reducing and 0.8 or 1 by expanding.
 TEST(Pyramid, AnEvenExpansionOfCurvedGroundDoesNotAlternate) {
-  Grid<float> bowl(64, 9);
-  for (int y = 0; y < 9; ++y)
-    for (int x = 0; x < 64; ++x) bowl(x, y) = static_cast<float>(0.5 * x * x);
+  const Grid<float> bowl = test::grid_of(64, 9, [&](int x, int) { return 0.5 * x * x; });
   const Grid<float> coarser = reduce(bowl);
   std::vector<float> even(64);
   std::vector<float> usual(64);

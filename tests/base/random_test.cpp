@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/grids.h"
+
 namespace belvedere {
 namespace {
 
@@ -37,14 +39,12 @@ TEST(Random, UniformFillsTheUnitIntervalEvenly) {
   std::array<int, 20> bins{};
   double sum = 0.0;
   const int side = 400;
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const double u = random_uniform(7, x, y);
-      ASSERT_GE(u, 0.0);
-      ASSERT_LT(u, 1.0);
-      ++bins[static_cast<std::size_t>(u * 20.0)];
-      sum += u;
-    }
+  for (const auto [x, y] : test::cells(side, side)) {
+    const double u = random_uniform(7, x, y);
+    ASSERT_GE(u, 0.0);
+    ASSERT_LT(u, 1.0);
+    ++bins[static_cast<std::size_t>(u * 20.0)];
+    sum += u;
   }
   const double expected = side * side / 20.0;
   double chi2 = 0.0;
@@ -58,14 +58,12 @@ TEST(Random, NeighboursAreIndependent) {
   // standard deviations.
   const int side = 300;
   std::array<double, 4> products{};
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const double here = random_uniform(7, x, y) - 0.5;
-      products[0] += here * (random_uniform(7, x + 1, y) - 0.5);
-      products[1] += here * (random_uniform(7, x, y + 1) - 0.5);
-      products[2] += here * (random_uniform(8, x, y) - 0.5);
-      products[3] += here * (random_uniform(7, x, y, 1) - 0.5);
-    }
+  for (const auto [x, y] : test::cells(side, side)) {
+    const double here = random_uniform(7, x, y) - 0.5;
+    products[0] += here * (random_uniform(7, x + 1, y) - 0.5);
+    products[1] += here * (random_uniform(7, x, y + 1) - 0.5);
+    products[2] += here * (random_uniform(8, x, y) - 0.5);
+    products[3] += here * (random_uniform(7, x, y, 1) - 0.5);
   }
   for (const double p : products) EXPECT_NEAR(12.0 * p / (side * side), 0.0, 4.0 / side);
 }
@@ -86,14 +84,12 @@ TEST(Random, NormalHasMeanNoughtAndDeviationOne) {
   double squares = 0.0;
   double fourth = 0.0;
   const int side = 400;
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const double n = random_normal(11, x, y);
-      ASSERT_LE(std::abs(n), 3.4642);
-      sum += n;
-      squares += n * n;
-      fourth += n * n * n * n;
-    }
+  for (const auto [x, y] : test::cells(side, side)) {
+    const double n = random_normal(11, x, y);
+    ASSERT_LE(std::abs(n), 3.4642);
+    sum += n;
+    squares += n * n;
+    fourth += n * n * n * n;
   }
   const double count = side * side;
   EXPECT_NEAR(sum / count, 0.0, 4.0 / side);

@@ -6,7 +6,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -18,6 +17,7 @@
 
 #include "renderer/image/image_io.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/http_server.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "tests/tools/program.h"
@@ -43,8 +43,7 @@ class Faults : public Program {
   static Raster<float> hills(double origin_x = east, const std::string& crs = "EPSG:32632") {
     Raster<float> raster{
         Grid<float>(side, side), {origin_x, north, 100.0, 100.0}, normalize_crs(crs)};
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) raster.cells(x, y) = hill(x, y);
+    for (const auto [x, y] : test::cells(side, side)) raster.cells(x, y) = hill(x, y);
     return raster;
   }
   // The same as ESRI ASCII without a CRS; `voids` cells in the third row and on hold `nodata`.
@@ -54,11 +53,10 @@ class Faults : public Program {
     std::string text =
         fmt::format("ncols {0}\nnrows {0}\nxllcorner {1}\nyllcorner {2}\ncellsize {3}\n", side,
                     origin_x, origin_y, cell);
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x)
-        text += (y >= 2 && (y - 2) * side + x < voids ? nodata
-                                                      : fmt::format("{:.2f}", hill(x, y) * scale)) +
-                (x + 1 < side ? " " : "\n");
+    for (const auto [x, y] : test::cells(side, side))
+      text += (y >= 2 && (y - 2) * side + x < voids ? nodata
+                                                    : fmt::format("{:.2f}", hill(x, y) * scale)) +
+              (x + 1 < side ? " " : "\n");
     return write(name, text);
   }
   // A scene of the terrain blocks given that looks at the hills from the south; `more` stands at

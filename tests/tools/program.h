@@ -13,6 +13,7 @@
 #include "renderer/image/image_io.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/scenes.h"
 #include "tests/shared_cache.h"
@@ -89,8 +90,7 @@ class Program : public ::testing::Test {
   std::string write_picture(const std::string& name, int width, int height,
                             const std::function<glm::vec3(int, int)>& colour) const {
     Grid<glm::vec3> picture(width, height);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) picture(x, y) = colour(x, y);
+    for (const auto [x, y] : test::cells(width, height)) picture(x, y) = colour(x, y);
     write_png8(path(name), picture, {});
     return path(name);
   }

@@ -7,6 +7,7 @@
 
 #include "base/grid.h"
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -21,12 +22,11 @@ std::array<bool, 256> opens(std::initializer_list<int> labels) {
 
 Labels disc(int side, double radius) {
   Labels out(side, side);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      const double dx = x - .5 * (side - 1);
-      const double dy = y - .5 * (side - 1);
-      out(x, y) = dx * dx + dy * dy <= radius * radius ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(side, side)) {
+    const double dx = x - .5 * (side - 1);
+    const double dy = y - .5 * (side - 1);
+    out(x, y) = dx * dx + dy * dy <= radius * radius ? 1 : 0;
+  }
   return out;
 }
 
@@ -37,11 +37,10 @@ double radius_of(const Labels& labels) {
 // Two labels and a third in patches, without a closed form.
 Labels patchy(int width, int height) {
   Labels out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const double v = gaussian_noise(4, x, y, 9.0);
-      out(x, y) = v > 0.2 ? 1 : v > -.5 ? 2 : 3;
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const double v = gaussian_noise(4, x, y, 9.0);
+    out(x, y) = v > 0.2 ? 1 : v > -.5 ? 2 : 3;
+  }
   return out;
 }
 
@@ -49,9 +48,8 @@ TEST(Erosion, AFlatBorderGoesBackByAStepALevel) {
   Labels half(120, 60);
   for (int y = 0; y < 60; ++y) std::fill(half.row(y) + 20, half.row(y) + 120, std::uint8_t{1});
   const Erosion even = erode(half, 1, opens({0}), {.levels = 3, .step = 8.0, .ragged = 0.0});
-  for (int y = 10; y < 50; ++y)
-    for (int x = 0; x < 120; ++x)
-      ASSERT_EQ(even.level(x, y), x < 20 || x >= 44 ? 0 : 1 + (x - 20) / 8) << x << " " << y;
+  for (const auto [x, y] : test::cells({0, 10, 120, 50}))
+    ASSERT_EQ(even.level(x, y), x < 20 || x >= 44 ? 0 : 1 + (x - 20) / 8) << x << " " << y;
 }
 
 TEST(Erosion, ADiscShrinksByAStepALevel) {
@@ -75,16 +73,15 @@ TEST(Erosion, BordersAreMadeAnew) {
     double sum = 0.0;
     double squares = 0.0;
     int count = 0;
-    for (int y = 1; y < 300; ++y)
-      for (int x = 1; x < 300; ++x) {
-        if (left(x, y) != 1 || (left(x + 1, y) == 1 && left(x - 1, y) == 1 && left(x, y + 1) == 1 &&
-                                left(x, y - 1) == 1))
-          continue;
-        const double r = std::hypot(x - 150.0, y - 150.0);
-        sum += r;
-        squares += r * r;
-        ++count;
-      }
+    for (const auto [x, y] : test::cells({1, 1, 300, 300})) {
+      if (left(x, y) != 1 || (left(x + 1, y) == 1 && left(x - 1, y) == 1 && left(x, y + 1) == 1 &&
+                              left(x, y - 1) == 1))
+        continue;
+      const double r = std::hypot(x - 150.0, y - 150.0);
+      sum += r;
+      squares += r * r;
+      ++count;
+    }
     return std::sqrt(squares / count - sum * sum / count / count);
   };
   EXPECT_LT(spread(0.0), 1.0);
@@ -160,9 +157,8 @@ TEST(Erosion, AnyPartOfTheGridGivesTheSame) {
 TEST(Erosion, FinerCellsErodeAlike) {
   const auto left = [](int scale) {
     Labels labels(160 * scale, 160 * scale);
-    for (int y = 0; y < labels.height(); ++y)
-      for (int x = 0; x < labels.width(); ++x)
-        labels(x, y) = gaussian_noise(4, (x + .5) / scale, (y + .5) / scale, 16.0) > 0.0 ? 1 : 0;
+    for (const auto [x, y] : test::cells(labels))
+      labels(x, y) = gaussian_noise(4, (x + .5) / scale, (y + .5) / scale, 16.0) > 0.0 ? 1 : 0;
     const double cell = 1.0 / scale;
     return erode(labels, 1, opens({0}),
                  {.levels = 2,
@@ -178,11 +174,10 @@ TEST(Erosion, FinerCellsErodeAlike) {
   const Labels fine = left(2);
   int differ = 0;
   int all = 0;
-  for (int y = 0; y < 160; ++y)
-    for (int x = 0; x < 160; ++x) {
-      all += coarse(x, y);
-      differ += coarse(x, y) != fine(2 * x, 2 * y) ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(160, 160)) {
+    all += coarse(x, y);
+    differ += coarse(x, y) != fine(2 * x, 2 * y) ? 1 : 0;
+  }
   EXPECT_GT(all, 1000);
   EXPECT_LT(differ, all / 8);
 }

@@ -7,15 +7,15 @@
 #include <cstdlib>
 
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
 
 TEST(BlurWithinLabels, LetsNothingThroughABorder) {
   Grid<std::uint8_t> labels(40, 20, 1);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 40; ++x)
-      labels(x, y) = x + y < 30 ? 1 : 2;  // slanted: the boxes around the two overlap
+  for (const auto [x, y] : test::cells(40, 20))
+    labels(x, y) = x + y < 30 ? 1 : 2;  // slanted: the boxes around the two overlap
   Grid<float> values(40, 20);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = labels[i] == 1 ? 0.25F : 0.75F;
   const Grid<float> blurred = blur_within_labels(values, labels, 5.0);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "terrain/shape/mask_pieces.h"
+#include "tests/grids.h"
 #include "tests/renderer/close/close_ground.h"
 
 namespace belvedere {
@@ -91,9 +92,8 @@ TEST(CloseBorders, StrewOutliersOnBothSides) {
   const auto islands_of = [](Class left, Class right, std::uint64_t seed) {
     const BorderScene scene(left, right, seed);
     Grid<Class> shown(160, 140);
-    for (int y = 0; y < 140; ++y)
-      for (int x = 0; x < 160; ++x)
-        shown(x, y) = scene.g.is_sky(shown.index(x, y)) ? Class::sky : scene.borders.at(x, y, 1.0F);
+    for (const auto [x, y] : test::cells(160, 140))
+      shown(x, y) = scene.g.is_sky(shown.index(x, y)) ? Class::sky : scene.borders.at(x, y, 1.0F);
     // Pieces of a class that do not reach an edge of the picture: of the left and of the right one.
     const auto spread = [&](Mask& mask, glm::ivec2 from) {
       const Class id = shown(from.x, from.y);
@@ -104,12 +104,11 @@ TEST(CloseBorders, StrewOutliersOnBothSides) {
     for (int y = 0; y < 140; ++y)
       for (const int x : {0, 159}) spread(seen, {x, y});
     std::pair<int, int> count{0, 0};
-    for (int y = 0; y < 140; ++y)
-      for (int x = 0; x < 160; ++x) {
-        if (seen(x, y) != 0 || (shown(x, y) != left && shown(x, y) != right)) continue;
-        ++(shown(x, y) == left ? count.first : count.second);
-        spread(seen, {x, y});
-      }
+    for (const auto [x, y] : test::cells(160, 140)) {
+      if (seen(x, y) != 0 || (shown(x, y) != left && shown(x, y) != right)) continue;
+      ++(shown(x, y) == left ? count.first : count.second);
+      spread(seen, {x, y});
+    }
     return count;
   };
   const auto islands = [&](Class left, Class right) {

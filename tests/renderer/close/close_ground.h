@@ -2,6 +2,7 @@
 
 #include "renderer/paint/rock_kinds.h"
 #include "renderer/rock/rock_relief.h"
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere::test {
@@ -12,13 +13,12 @@ inline GuidanceBuffers make_close_hills(int width, int height, double pixels_per
                                         double metres_per_unit, LandCoverClass left,
                                         LandCoverClass right) {
   GuidanceBuffers g = make_hills(width, height, pixels_per_unit);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const std::size_t i = g.depth_m.index(x, y);
-      if (g.is_sky(i)) continue;
-      g.footprint_m[i] = static_cast<float>(metres_per_unit / pixels_per_unit);
-      g.land_cover[i] = x < width / 2 ? left : right;
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const std::size_t i = g.depth_m.index(x, y);
+    if (g.is_sky(i)) continue;
+    g.footprint_m[i] = static_cast<float>(metres_per_unit / pixels_per_unit);
+    g.land_cover[i] = x < width / 2 ? left : right;
+  }
   return g;
 }
 

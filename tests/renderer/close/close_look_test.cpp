@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "tests/grids.h"
 #include "tests/renderer/close/close_ground.h"
 
 namespace belvedere {
@@ -59,12 +59,10 @@ double modelling(glm::vec3 normal, float shadow, CloseCover cover) {
   for (float& metres : g.footprint_m) metres = 6.0F;
   const SlopeScene made(g);
   double squares = 0.0;
-  for (int y = 0; y < side; y += 3)
-    for (int x = 0; x < side; x += 3) {
-      const double tone =
-          static_cast<double>(look_at_form(made.scene, x, y, cover, {0.5, 0.5}).tone);
-      squares += tone * tone;
-    }
+  for (const auto [x, y] : test::cells({0, 0, side, side}, 3)) {
+    const double tone = static_cast<double>(look_at_form(made.scene, x, y, cover, {0.5, 0.5}).tone);
+    squares += tone * tone;
+  }
   return std::sqrt(squares / (30.0 * 30.0));
 }
 
@@ -91,13 +89,11 @@ TEST(CloseLook, GlaciersHaveLateralMoraines) {
     GuidanceBuffers g = test::make_slope(side, side, Class::scree,
                                          glm::normalize(glm::vec3(0.1F, -0.4F, 0.9F)), 25.0F);
     for (float& metres : g.footprint_m) metres = 6.0F;
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < 50; ++x) g.land_cover(x, y) = beside;
+    for (const auto [x, y] : test::cells(50, side)) g.land_cover(x, y) = beside;
     const SlopeScene made(g, seed);
     Grid<float> tone(side, side, 0.0F);
-    for (int y = 0; y < side; ++y)
-      for (int x = 50; x < side; ++x)
-        tone(x, y) = look_at_form(made.scene, x, y, CloseCover::scree, {0.5, 0.5}).tone;
+    for (const auto [x, y] : test::cells({50, 0, side, side}))
+      tone(x, y) = look_at_form(made.scene, x, y, CloseCover::scree, {0.5, 0.5}).tone;
     return tone;
   };
   // Rows in which one side of the ridge is lit and the other is not, of all rows of some seeds.
@@ -138,22 +134,20 @@ TEST(CloseLook, DomesOfSnowHaveTwoSides) {
   const auto lean = [](int x) {
     return std::sin(2.0 * 3.14159265 * (x - side / 2.0) / length);  // by 10° at most
   };
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      const glm::vec3 n = glm::normalize(sun + static_cast<float>(0.18 * lean(x)) * aside);
-      g.normal(x, y) = g.normal_detail(x, y) = g.normal_smooth(x, y) = n;
-    }
+  for (const auto [x, y] : test::cells(side, side)) {
+    const glm::vec3 n = glm::normalize(sun + static_cast<float>(0.18 * lean(x)) * aside);
+    g.normal(x, y) = g.normal_detail(x, y) = g.normal_smooth(x, y) = n;
+  }
   const SlopeScene made(g);
   double sums[2] = {0.0, 0.0};
   int counts[2] = {0, 0};
-  for (int y = 20; y < side - 20; y += 3)
-    for (int x = 20; x < side - 20; x += 3) {
-      if (std::abs(lean(x)) < 0.7) continue;
-      const int k = lean(x) > 0.0 ? 1 : 0;
-      sums[k] +=
-          static_cast<double>(look_at_form(made.scene, x, y, CloseCover::snow, {0.5, 0.5}).tone);
-      ++counts[k];
-    }
+  for (const auto [x, y] : test::cells({20, 20, side - 20, side - 20}, 3)) {
+    if (std::abs(lean(x)) < 0.7) continue;
+    const int k = lean(x) > 0.0 ? 1 : 0;
+    sums[k] +=
+        static_cast<double>(look_at_form(made.scene, x, y, CloseCover::snow, {0.5, 0.5}).tone);
+    ++counts[k];
+  }
   EXPECT_GT(sums[1] / counts[1], sums[0] / counts[0] + 0.06);
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/math.h"
 #include "base/parallel.h"
+#include "tests/grids.h"
 #include "tests/renderer/close/close_ground.h"
 #include "tests/renderer/paint/hills_print.h"
 
@@ -79,10 +80,9 @@ TEST(CloseRelief, OfAPartIsThatOfTheWhole) {
   GuidanceBuffers g = test::make_close_hills(960, 420, 1.0, 8.0, Class::snow, Class::scree);
   // In the middle snow lies above scree, and its tongues reach into parts that hold scree alone.
   constexpr int below_snow = 240;
-  for (int y = 0; y < g.height(); ++y)
-    for (int x = 300; x < 600; ++x)
-      if (!g.is_sky(g.depth_m.index(x, y)))
-        g.land_cover(x, y) = y < below_snow ? Class::snow : Class::scree;
+  for (const auto [x, y] : test::cells({300, 0, 600, g.height()}))
+    if (!g.is_sky(g.depth_m.index(x, y)))
+      g.land_cover(x, y) = y < below_snow ? Class::snow : Class::scree;
   const RockParameters p = test::close_parameters(1.0);
   const RockRelief whole = close_relief_of(g, p);
   const PixelRect tongues{310, below_snow + 4, 590, below_snow + 8};
@@ -96,9 +96,8 @@ TEST(CloseRelief, OfAPartIsThatOfTheWhole) {
 TEST(CloseRelief, OfAPartBesideAGlacierIsThatOfTheWhole) {
   GuidanceBuffers g =
       test::make_close_hills(760, 420, 1.0, 8.0, Class::glacier, Class::alpine_grass);
-  for (int y = 300; y < g.height(); ++y)
-    for (int x = 300; x < 420; ++x)
-      if (!g.is_sky(g.depth_m.index(x, y))) g.land_cover(x, y) = Class::scree;
+  for (const auto [x, y] : test::cells({300, 300, 420, g.height()}))
+    if (!g.is_sky(g.depth_m.index(x, y))) g.land_cover(x, y) = Class::scree;
   const RockRelief whole = close_relief_of(g, test::close_parameters(1.0));
   for (const PixelRect kept : {PixelRect{374, 200, 394, 230}, PixelRect{350, 310, 430, 330}})
     expect_part_of(whole, kept, g, test::bare_relief(g, kept));
@@ -107,16 +106,13 @@ TEST(CloseRelief, OfAPartBesideAGlacierIsThatOfTheWhole) {
 // Below a wall whose gullies hold debris, with grass at its foot.
 TEST(CloseRelief, OfAPartWithConesIsThatOfTheWhole) {
   GuidanceBuffers g = test::make_close_hills(900, 420, 1.0, 8.0, Class::scree, Class::alpine_grass);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < g.width(); ++x)
-      if (!g.is_sky(g.depth_m.index(x, y))) g.land_cover(x, y) = Class::rock;
+  for (const auto [x, y] : test::cells(g.width(), 200))
+    if (!g.is_sky(g.depth_m.index(x, y))) g.land_cover(x, y) = Class::rock;
   const RockParameters p = test::close_parameters(1.0);
   const auto with_gullies = [](RockRelief relief, glm::ivec2 origin) {
-    for (int y = 0; y < relief.land_cover.height(); ++y)
-      for (int x = 0; x < relief.land_cover.width(); ++x)
-        if (relief.land_cover(x, y) == Class::rock && y + origin.y > 185 &&
-            (x + origin.x) % 40 < 12)
-          relief.land_cover(x, y) = Class::scree;
+    for (const auto [x, y] : test::cells(relief.land_cover))
+      if (relief.land_cover(x, y) == Class::rock && y + origin.y > 185 && (x + origin.x) % 40 < 12)
+        relief.land_cover(x, y) = Class::scree;
     return relief;
   };
   const PixelRect all{0, 0, g.width(), g.height()};
@@ -137,16 +133,14 @@ TEST(CloseRelief, OfAPartWithConesIsThatOfTheWhole) {
 TEST(CloseRelief, OfAPartInWinterIsThatOfTheWhole) {
   GuidanceBuffers g =
       test::make_close_hills(820, 420, 1.0, 8.0, Class::alpine_grass, Class::forest);
-  for (int y = 0; y < 220; ++y)
-    for (int x = 0; x < g.width(); ++x)
-      if (!g.is_sky(g.depth_m.index(x, y))) g.land_cover(x, y) = Class::rock;
+  for (const auto [x, y] : test::cells(g.width(), 220))
+    if (!g.is_sky(g.depth_m.index(x, y))) g.land_cover(x, y) = Class::rock;
   RockParameters p = test::close_parameters(1.0);
   p.winter = true;
   const auto covered = [](RockRelief relief, glm::ivec2 origin) {
-    for (int y = 0; y < relief.land_cover.height(); ++y)
-      for (int x = 0; x < relief.land_cover.width(); ++x)
-        if (relief.land_cover(x, y) == Class::rock && (x + origin.x) % 60 < 40)
-          relief.land_cover(x, y) = Class::snow;
+    for (const auto [x, y] : test::cells(relief.land_cover))
+      if (relief.land_cover(x, y) == Class::rock && (x + origin.x) % 60 < 40)
+        relief.land_cover(x, y) = Class::snow;
     return relief;
   };
   RockRelief whole = covered(test::bare_relief(g, {0, 0, g.width(), g.height()}), {0, 0});

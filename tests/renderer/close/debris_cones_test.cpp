@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "tests/grids.h"
 #include "tests/renderer/close/close_ground.h"
 
 namespace belvedere {
@@ -29,12 +30,11 @@ struct Wall {
                            32.0F)),
         fall(width, height, glm::vec2(0.0F, 1.0F)),
         ground{wide, fall, 1.0, 5} {
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        g.footprint_m(x, y) = 6.0F;
-        g.fall_line(x, y) = {0.0F, 1.0F};
-        if (y < foot_of_rock) g.land_cover(x, y) = above;
-      }
+    for (const auto [x, y] : test::cells(width, height)) {
+      g.footprint_m(x, y) = 6.0F;
+      g.fall_line(x, y) = {0.0F, 1.0F};
+      if (y < foot_of_rock) g.land_cover(x, y) = above;
+    }
   }
 };
 
@@ -78,15 +78,14 @@ TEST(DebrisCones, AreConvex) {
   const DebrisCones grown = grow_debris_cones(wall.ground, {0, 0, width, height});
   double away = 0.0;
   int count = 0;
-  for (int y = foot_of_rock + 10; y < height; y += 3)
-    for (int x = 0; x < width; x += 3) {
-      const DebrisHit hit =
-          debris_at(grown, 5, {static_cast<float>(x), static_cast<float>(y)}, wall.g.depth_m(x, y));
-      if (hit.cone == nullptr || std::abs(hit.across) < 0.5F || hit.along < 0.3F) continue;
-      // To the right of an axis that points down the sheet.
-      away += static_cast<double>(hit.across > 0.0F ? hit.slope.x : -hit.slope.x);
-      ++count;
-    }
+  for (const auto [x, y] : test::cells({0, foot_of_rock + 10, width, height}, 3)) {
+    const DebrisHit hit =
+        debris_at(grown, 5, {static_cast<float>(x), static_cast<float>(y)}, wall.g.depth_m(x, y));
+    if (hit.cone == nullptr || std::abs(hit.across) < 0.5F || hit.along < 0.3F) continue;
+    // To the right of an axis that points down the sheet.
+    away += static_cast<double>(hit.across > 0.0F ? hit.slope.x : -hit.slope.x);
+    ++count;
+  }
   ASSERT_GT(count, 100);
   EXPECT_LT(away / count, -0.25);
 }
@@ -96,19 +95,18 @@ TEST(DebrisCones, OfAPartAreThoseOfTheWhole) {
   const DebrisCones whole = grow_debris_cones(wall.ground, {0, 0, width, height});
   const DebrisCones part = grow_debris_cones(wall.ground, {180, 140, 230, 200});
   int inside = 0;
-  for (int y = 140; y < 200; ++y)
-    for (int x = 180; x < 230; ++x) {
-      const glm::vec2 position(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-      const float depth_m = wall.g.depth_m(x, y);
-      const DebrisHit a = debris_at(whole, 5, position, depth_m);
-      const DebrisHit b = debris_at(part, 5, position, depth_m);
-      ASSERT_EQ(a.cone == nullptr, b.cone == nullptr);
-      EXPECT_EQ(a.tone, b.tone);
-      EXPECT_EQ(a.slope, b.slope);
-      EXPECT_EQ(a.inside, b.inside);
-      EXPECT_EQ(a.beside, b.beside);
-      inside += a.cone != nullptr ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells({180, 140, 230, 200})) {
+    const glm::vec2 position(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+    const float depth_m = wall.g.depth_m(x, y);
+    const DebrisHit a = debris_at(whole, 5, position, depth_m);
+    const DebrisHit b = debris_at(part, 5, position, depth_m);
+    ASSERT_EQ(a.cone == nullptr, b.cone == nullptr);
+    EXPECT_EQ(a.tone, b.tone);
+    EXPECT_EQ(a.slope, b.slope);
+    EXPECT_EQ(a.inside, b.inside);
+    EXPECT_EQ(a.beside, b.beside);
+    inside += a.cone != nullptr ? 1 : 0;
+  }
   EXPECT_GT(inside, 200);
 }
 
@@ -117,20 +115,19 @@ TEST(DebrisCones, LeaveGrassAtTheirFeet) {
   const Wall wall;
   const DebrisCones grown = grow_debris_cones(wall.ground, {0, 0, width, height});
   int high = 0, covered_high = 0, low = 0, covered_low = 0;
-  for (int y = foot_of_rock; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const DebrisHit hit =
-          debris_at(grown, 5, {static_cast<float>(x), static_cast<float>(y)}, wall.g.depth_m(x, y));
-      if (hit.cone == nullptr || hit.inside < 0.9F) continue;
-      const bool covers = debris_covers(hit);
-      if (hit.along > 0.1F && hit.along < 0.4F) {
-        ++high;
-        covered_high += covers ? 1 : 0;
-      } else if (hit.along > 0.8F) {
-        ++low;
-        covered_low += covers ? 1 : 0;
-      }
+  for (const auto [x, y] : test::cells({0, foot_of_rock, width, height})) {
+    const DebrisHit hit =
+        debris_at(grown, 5, {static_cast<float>(x), static_cast<float>(y)}, wall.g.depth_m(x, y));
+    if (hit.cone == nullptr || hit.inside < 0.9F) continue;
+    const bool covers = debris_covers(hit);
+    if (hit.along > 0.1F && hit.along < 0.4F) {
+      ++high;
+      covered_high += covers ? 1 : 0;
+    } else if (hit.along > 0.8F) {
+      ++low;
+      covered_low += covers ? 1 : 0;
     }
+  }
   ASSERT_GT(high, 300);
   ASSERT_GT(low, 300);
   EXPECT_GT(covered_high, 0.98 * high);
@@ -155,8 +152,8 @@ TEST(DebrisCones, AreThoseOfTheirWall) {
   EXPECT_LT(mean_length(hard), 0.95 * mean_length(loose));
   Wall low;
   constexpr int wall_units = 24;
-  for (int y = 0; y < foot_of_rock - wall_units; ++y)
-    for (int x = 0; x < width; ++x) low.g.land_cover(x, y) = Class::alpine_grass;
+  for (const auto [x, y] : test::cells(width, foot_of_rock - wall_units))
+    low.g.land_cover(x, y) = Class::alpine_grass;
   const DebrisCones small = grow_debris_cones(low.ground, rect);
   ASSERT_FALSE(small.cones.empty());
   for (const DebrisCone& cone : small.cones) EXPECT_LE(cone.length, 12.0F + 1.1F * 32.0F);

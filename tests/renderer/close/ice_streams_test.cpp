@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "tests/grids.h"
 #include "tests/renderer/close/close_ground.h"
+#include "tests/renderer/paint/hills_print.h"
 
 namespace belvedere {
 namespace {
@@ -54,9 +56,8 @@ TEST(IceStreams, AreTheSameInAnyWindow) {
   const test::Window part = test::window_of(g, grown(wanted, reach));
   const glm::ivec2 corner(part.rect.x0, part.rect.y0);
   const Grid<float> piece = streams_of(part.held, corner, moved(wanted, -corner.x, -corner.y));
-  for (int y = wanted.y0; y < wanted.y1; ++y)
-    for (int x = wanted.x0; x < wanted.x1; ++x)
-      ASSERT_EQ(piece(x - corner.x, y - corner.y), whole(x, y)) << x << ' ' << y;
+  for (const auto [x, y] : test::cells(wanted))
+    ASSERT_EQ(piece(x - corner.x, y - corner.y), whole(x, y)) << x << ' ' << y;
 }
 
 }  // namespace

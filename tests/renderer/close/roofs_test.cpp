@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tests/grids.h"
 #include "tests/renderer/close/close_ground.h"
 
 namespace belvedere {
@@ -69,15 +70,14 @@ TEST(Roofs, OfAPartAreThoseOfTheWhole) {
   const Sheet sheet;
   const SpurCells whole = sheet.grow({0, 0, 240, 200}, {0.0F, 1.0F});
   const SpurCells part = sheet.grow({100, 130, 120, 150}, {0.0F, 1.0F});
-  for (int y = 130; y < 150; y += 3)
-    for (int x = 100; x < 120; x += 3) {
-      const glm::vec2 position(x, y);
-      const float depth_m = sheet.g.depth_m(x, y);
-      const SpurHit a = highest_spur(whole, 0.5F, position, depth_m, 0);
-      const SpurHit b = highest_spur(part, 0.5F, position, depth_m, 0);
-      EXPECT_EQ(a.height, b.height);
-      EXPECT_EQ(a.flank_id(), b.flank_id());
-    }
+  for (const auto [x, y] : test::cells({100, 130, 120, 150}, 3)) {
+    const glm::vec2 position(x, y);
+    const float depth_m = sheet.g.depth_m(x, y);
+    const SpurHit a = highest_spur(whole, 0.5F, position, depth_m, 0);
+    const SpurHit b = highest_spur(part, 0.5F, position, depth_m, 0);
+    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.flank_id(), b.flank_id());
+  }
   EXPECT_EQ(roof_reach_units(example_size), 84.0F);
 }
 

@@ -1,6 +1,5 @@
 #include "renderer/compose/coarse_ground.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "base/error.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/compose/synthetic_region.h"
 
 namespace belvedere {
@@ -43,10 +43,8 @@ TEST(CoarseGround, MeasuresACone) {
 TEST(CoarseGround, HolesAreFilledAndTheOutsideIsRim) {
   Raster<float> raster =
       test::synthetic_raster(60.0, [](double e, double n) { return 500.0 + 10.0 * e + n; });
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 30; ++x) raster.cells(x, y) = NAN;  // beyond the data
-  for (int y = 90; y < 96; ++y)
-    for (int x = 100; x < 106; ++x) raster.cells(x, y) = NAN;  // a hole
+  for (const auto [x, y] : test::cells(30, 200)) raster.cells(x, y) = NAN;  // beyond the data
+  for (const auto [x, y] : test::cells({100, 90, 106, 96})) raster.cells(x, y) = NAN;  // a hole
   const CoarseGround ground = make_coarse_ground(raster, 300.0);
   EXPECT_NEAR(ground.void_share, 30.0 / 200.0, 0.002);
   EXPECT_NEAR(ground.side_m, std::sqrt(170.0 * 200.0) * 300.0, 1.0);

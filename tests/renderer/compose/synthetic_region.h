@@ -6,6 +6,7 @@
 #include "renderer/compose/coarse_ground.h"
 #include "renderer/compose/view_shape.h"
 #include "terrain/io/crs.h"
+#include "tests/grids.h"
 
 namespace belvedere::test {
 
@@ -18,12 +19,11 @@ inline Raster<float> synthetic_raster(
   Raster<float> raster{Grid<float>(cells, cells),
                        {600000.0, 5200000.0 + side_km * 1000.0, cell_m, cell_m},
                        normalize_crs("EPSG:32632")};
-  for (int y = 0; y < cells; ++y)
-    for (int x = 0; x < cells; ++x) {
-      const glm::dvec2 at = raster.transform.to_crs(x, y);
-      raster.cells(x, y) =
-          static_cast<float>(altitude_m((at.x - 600000.0) / 1000.0, (at.y - 5200000.0) / 1000.0));
-    }
+  for (const auto [x, y] : test::cells(cells, cells)) {
+    const glm::dvec2 at = raster.transform.to_crs(x, y);
+    raster.cells(x, y) =
+        static_cast<float>(altitude_m((at.x - 600000.0) / 1000.0, (at.y - 5200000.0) / 1000.0));
+  }
   return raster;
 }
 inline glm::dvec2 position_km(double east_km, double north_km) {

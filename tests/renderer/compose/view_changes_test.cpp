@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "renderer/compose/proposed_scene.h"
+#include "tests/grids.h"
 #include "tests/renderer/compose/synthetic_region.h"
 
 namespace belvedere {
@@ -135,8 +136,7 @@ TEST(GroundChanges, WiderValleysHaveMoreFloorInTheSameRegion) {
 
 TEST(GroundChanges, WhatIsUnknownStaysUnknown) {
   Raster<float> raster = test::synthetic_raster(60.0, valley);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 40; ++x) raster.cells(x, y) = NAN;
+  for (const auto [x, y] : test::cells(40, 200)) raster.cells(x, y) = NAN;
   const CoarseGround ground = make_coarse_ground(raster, 300.0);
   const CoarseGround wide = widened_ground(ground, 1000.0);
   for (std::size_t i = 0; i < ground.cells.size(); ++i)
@@ -155,12 +155,11 @@ TEST(GroundChanges, SummitsAreRaisedByThemselves) {
       << "a cell beside the middle";
   EXPECT_NEAR(static_cast<double>(after.above_m - before.above_m), rise, 1e-3);
   int kept = 0;
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x) {
-      const glm::dvec2 off = ground.transform.to_crs(x, y) - by.centre;
-      if (off.x * off.x + off.y * off.y >= 25e6)
-        kept += raised.cells(x, y) == ground.cells(x, y) ? 1 : -1000000;
-    }
+  for (const auto [x, y] : test::cells(200, 200)) {
+    const glm::dvec2 off = ground.transform.to_crs(x, y) - by.centre;
+    if (off.x * off.x + off.y * off.y >= 25e6)
+      kept += raised.cells(x, y) == ground.cells(x, y) ? 1 : -1000000;
+  }
   EXPECT_GT(kept, 30000) << "beyond the radius all is as it was";
 }
 

@@ -1,6 +1,5 @@
 #include "renderer/features/drawn_cables.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

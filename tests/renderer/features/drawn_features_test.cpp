@@ -1,11 +1,11 @@
 #include "renderer/features/drawn_features.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "tests/grids.h"
 #include "tests/renderer/features/test_ground.h"
 
 namespace belvedere {
@@ -187,13 +187,11 @@ TEST(GroundSight, LooksAtTheFinestWindow) {
   window.part = {4, 4, 45, 45};
   window.surface.origin = ground.surface.origin;
   window.surface.vertices_m = Grid<glm::vec3>(49, 49);
-  for (int y = 0; y < 49; ++y)
-    for (int x = 0; x < 49; ++x) {
-      const glm::dvec2 position =
-          ground.transform.to_crs(100.0 + 0.5 * (x - 4), 100.0 + 0.5 * (y - 4));
-      window.surface.vertices_m(x, y) =
-          glm::vec3(glm::dvec3(position, 7.0) - ground.surface.origin);
-    }
+  for (const auto [x, y] : test::cells(49, 49)) {
+    const glm::dvec2 position =
+        ground.transform.to_crs(100.0 + 0.5 * (x - 4), 100.0 + 0.5 * (y - 4));
+    window.surface.vertices_m(x, y) = glm::vec3(glm::dvec3(position, 7.0) - ground.surface.origin);
+  }
   const glm::dvec2 inside = ground.transform.to_crs(110.3, 112.6);
   const glm::dvec2 outside = ground.transform.to_crs(130.0, 112.0);
   ground.surface.windows.push_back(window);

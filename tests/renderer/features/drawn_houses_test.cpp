@@ -1,6 +1,5 @@
 #include "renderer/features/drawn_houses.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "renderer/features/footprint.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

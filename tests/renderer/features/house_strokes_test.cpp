@@ -1,10 +1,10 @@
 #include "renderer/features/house_strokes.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 
 namespace belvedere {
@@ -85,12 +85,11 @@ TEST(HouseStrokes, NearerGroundHidesThem) {
 // cleared ground.
 TEST(HouseStrokes, StandingThingsKeepOffClearedGroundAndTellWhatTheyHide) {
   Picture p = plain_picture(LandCoverClass::forest, 320, 240);
-  for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 320; ++x) {
-      p.guidance.depth_m(x, y) = 60000.F - 160.F * static_cast<float>(y);
-      p.guidance.position_m(x, y) =
-          glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 900.F);
-    }
+  for (const auto [x, y] : test::cells(320, 240)) {
+    p.guidance.depth_m(x, y) = 60000.F - 160.F * static_cast<float>(y);
+    p.guidance.position_m(x, y) =
+        glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 900.F);
+  }
   const StrokeLayers trees{
       .sky = false, .ground = false, .accents = false, .breaks = false, .upright = true};
   MappedGround mapped;
@@ -121,15 +120,13 @@ TEST(HouseStrokes, StandingThingsKeepOffClearedGroundAndTellWhatTheyHide) {
   // them.
   MappedGround overhead = mapped;
   overhead.overhead_m = Grid<float>(320, 240, std::numeric_limits<float>::infinity());
-  for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 160; ++x) overhead.overhead_m(x, y) = 20000.F;
+  for (const auto [x, y] : test::cells(160, 240)) overhead.overhead_m(x, y) = 20000.F;
   window.mapped = &overhead;
   const Painting ropes = paint(window);
   for (std::size_t i = 0; i < ropes.picture.size(); ++i)
     ASSERT_EQ(ropes.picture[i], wood.picture[i]) << "overhead objects are painted later";
-  for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 320; ++x)
-      ASSERT_EQ(ropes.seen_overhead(x, y), x < 160 ? 1.F : wood.seen_ground(x, y));
+  for (const auto [x, y] : test::cells(320, 240))
+    ASSERT_EQ(ropes.seen_overhead(x, y), x < 160 ? 1.F : wood.seen_ground(x, y));
   // Inside the forest: trees of the rows in front hide it, those behind do not.
   for (float& distance_m : overhead.overhead_m) distance_m = 60000.F - 160.F * 120.F;
   const Painting amid = paint(window);
@@ -142,14 +139,13 @@ TEST(HouseStrokes, StandingThingsKeepOffClearedGroundAndTellWhatTheyHide) {
   EXPECT_LT(before_it / 320.0, 0.6);
   window.mapped = &mapped;
 
-  for (int y = 100; y < 160; ++y)
-    for (int x = 0; x < 320; ++x) mapped.cleared(x, y) = 1;
+  for (const auto [x, y] : test::cells({0, 100, 320, 160})) mapped.cleared(x, y) = 1;
   const Painting lane = paint(window);
   for (int x = 40; x < 280; ++x)
     EXPECT_EQ(lane.seen_ground(x, 130), 1.F) << "trees below reach up some pixels, and no farther";
   std::size_t elsewhere = 0;
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 320; ++x) elsewhere += lane.picture(x, y) != wood.picture(x, y) ? 1 : 0;
+  for (const auto [x, y] : test::cells(320, 60))
+    elsewhere += lane.picture(x, y) != wood.picture(x, y) ? 1 : 0;
   EXPECT_EQ(elsewhere, 0U);
 }
 

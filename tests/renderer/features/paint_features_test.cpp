@@ -1,6 +1,5 @@
 #include "renderer/features/paint_features.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "tests/grids.h"
 #include "tests/renderer/features/test_ground.h"
 
 namespace belvedere {
@@ -151,18 +151,16 @@ TEST(PaintFeatures, AnyRectangleAndAnyThreadsShowTheWhole) {
     const ThreadLimit one(1);
     const Grid<glm::vec3> part = painted(ground, drawn, rect, rect);
     std::size_t wrong = 0;
-    for (int y = rect.y0; y < rect.y1; ++y)
-      for (int x = rect.x0; x < rect.x1; ++x)
-        wrong += part(x - rect.x0, y - rect.y0) != whole(x, y) ? 1 : 0;
+    for (const auto [x, y] : test::cells(rect))
+      wrong += part(x - rect.x0, y - rect.y0) != whole(x, y) ? 1 : 0;
     EXPECT_EQ(wrong, 0U);
   }
   const PixelRect asked{100, 100, 180, 170};
   const Grid<glm::vec3> some = painted(ground, drawn, ground.sheet(), asked);
-  for (int y = 0; y < some.height(); ++y)
-    for (int x = 0; x < some.width(); ++x) {
-      const bool inside = x >= asked.x0 && x < asked.x1 && y >= asked.y0 && y < asked.y1;
-      ASSERT_EQ(some(x, y), inside ? whole(x, y) : bare) << x << ' ' << y;
-    }
+  for (const auto [x, y] : test::cells(some)) {
+    const bool inside = x >= asked.x0 && x < asked.x1 && y >= asked.y0 && y < asked.y1;
+    ASSERT_EQ(some(x, y), inside ? whole(x, y) : bare) << x << ' ' << y;
+  }
 }
 
 // As a layer over the ground they give the picture, also where something in front covers half and
@@ -229,11 +227,10 @@ TEST(PaintFeatures, WhatStandsNearerThanALiftHidesIt) {
   for (int y = 0; y < seen.height(); ++y) std::fill_n(seen.row(y), seen.width() / 2, 0.F);
   const Grid<glm::vec3> half = painted(ground, cable, ground.sheet(), ground.sheet(), 1.F, seen);
   std::size_t right = 0;
-  for (int y = 0; y < half.height(); ++y)
-    for (int x = 0; x < half.width(); ++x) {
-      EXPECT_EQ(half(x, y), x < half.width() / 2 ? bare : free(x, y));
-      right += x >= half.width() / 2 && half(x, y) != bare ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(half)) {
+    EXPECT_EQ(half(x, y), x < half.width() / 2 ? bare : free(x, y));
+    right += x >= half.width() / 2 && half(x, y) != bare ? 1 : 0;
+  }
   EXPECT_GT(right, 50U);
 }
 
@@ -264,9 +261,8 @@ TEST(PaintFeatures, TellsHowFarRopesHang) {
           .empty());
   const PixelRect part{140, 90, 291, 201};
   const Grid<float> window = find_overhead(cable, part);
-  for (int y = 0; y < part.height(); ++y)
-    for (int x = 0; x < part.width(); ++x)
-      ASSERT_EQ(window(x, y), overhead(part.x0 + x, part.y0 + y));
+  for (const auto [x, y] : test::cells(part))
+    ASSERT_EQ(window(x, y), overhead(part.x0 + x, part.y0 + y));
 }
 
 TEST(PaintFeatures, GroundBelowARopeIsClearedOfTrees) {
@@ -388,13 +384,11 @@ TEST(PaintFeatures, TreesAreClearedOnlyWhereALineNeedsIt) {
   }
   const PixelRect part{31, 77, 260, 208};
   Grid<float> depth(part.width(), part.height());
-  for (int y = 0; y < depth.height(); ++y)
-    for (int x = 0; x < depth.width(); ++x)
-      depth(x, y) = guidance.depth_m(part.x0 + x, part.y0 + y);
+  for (const auto [x, y] : test::cells(depth))
+    depth(x, y) = guidance.depth_m(part.x0 + x, part.y0 + y);
   const Grid<std::uint8_t> window = find_cleared(drawn, depth, part);
-  for (int y = 0; y < depth.height(); ++y)
-    for (int x = 0; x < depth.width(); ++x)
-      ASSERT_EQ(window(x, y), cleared(part.x0 + x, part.y0 + y));
+  for (const auto [x, y] : test::cells(depth))
+    ASSERT_EQ(window(x, y), cleared(part.x0 + x, part.y0 + y));
 }
 
 // Ground that is drawn higher or lower than traced takes its roads along, and the cleared trees;
@@ -408,9 +402,8 @@ TEST(PaintFeatures, WaysGoAlongWithCrestsOfRock) {
     for (int y = 0; y < 300; ++y) std::fill(rows.row(y) + 200, rows.row(y) + 400, right);
     GuidanceBuffers guidance = ground.guidance();
     const Grid<float> depth = guidance.depth_m;
-    for (int y = 0; y < 300; ++y)
-      for (int x = 0; x < 400; ++x)
-        guidance.depth_m(x, y) = depth(x, std::clamp(y + rows(x, y), 0, 299));
+    for (const auto [x, y] : test::cells(400, 300))
+      guidance.depth_m(x, y) = depth(x, std::clamp(y + rows(x, y), 0, 299));
     Grid<glm::vec3> picture(400, 300, bare);
     const Grid<glm::vec3> base = picture;
     const Grid<float> none(400, 300, 0.F);

@@ -10,6 +10,7 @@
 #include "base/guidance_buffers.h"
 #include "renderer/features/drawn_features.h"
 #include "renderer/features/paint_features.h"
+#include "tests/grids.h"
 
 namespace belvedere::test {
 
@@ -28,12 +29,11 @@ struct TestGround {
                       glm::dvec3 eye = {0.0, -3000.0, 1500.0}, int width = 400, int height = 300) {
     surface.origin = {eye.x, eye.y, 0.0};
     surface.vertices_m = Grid<glm::vec3>(cells, cells);
-    for (int y = 0; y < cells; ++y)
-      for (int x = 0; x < cells; ++x) {
-        const glm::dvec2 position = transform.to_crs(x, y);
-        surface.vertices_m(x, y) =
-            glm::vec3(glm::dvec3(position, altitude_m(position)) - surface.origin);
-      }
+    for (const auto [x, y] : test::cells(cells, cells)) {
+      const glm::dvec2 position = transform.to_crs(x, y);
+      surface.vertices_m(x, y) =
+          glm::vec3(glm::dvec3(position, altitude_m(position)) - surface.origin);
+    }
     CameraParameters parameters;
     parameters.width = width;
     parameters.height = height;
@@ -55,15 +55,14 @@ struct TestGround {
     out.depth_m = Grid<float>(width, height, std::numeric_limits<float>::infinity());
     out.tone = Grid<float>(width, height, 1.F);
     out.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::sky);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const Ray ray = camera->ray({x + 0.5, y + 0.5});
-        Hit hit;
-        tracer->intersect(std::span(&ray, 1), std::span(&hit, 1));
-        if (!hit.found) continue;
-        out.depth_m(x, y) = static_cast<float>(hit.distance_m);
-        out.land_cover(x, y) = LandCoverClass::pasture;
-      }
+    for (const auto [x, y] : test::cells(width, height)) {
+      const Ray ray = camera->ray({x + 0.5, y + 0.5});
+      Hit hit;
+      tracer->intersect(std::span(&ray, 1), std::span(&hit, 1));
+      if (!hit.found) continue;
+      out.depth_m(x, y) = static_cast<float>(hit.distance_m);
+      out.land_cover(x, y) = LandCoverClass::pasture;
+    }
     return out;
   }
 };
@@ -98,12 +97,11 @@ inline Grid<glm::vec3> painted(const TestGround& ground, const DrawnFeatures& dr
   part.depth_m = Grid<float>(width, height);
   part.tone = Grid<float>(width, height);
   part.land_cover = Grid<LandCoverClass>(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      part.depth_m(x, y) = all.depth_m(rect.x0 + x, rect.y0 + y);
-      part.tone(x, y) = all.tone(rect.x0 + x, rect.y0 + y);
-      part.land_cover(x, y) = all.land_cover(rect.x0 + x, rect.y0 + y);
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    part.depth_m(x, y) = all.depth_m(rect.x0 + x, rect.y0 + y);
+    part.tone(x, y) = all.tone(rect.x0 + x, rect.y0 + y);
+    part.land_cover(x, y) = all.land_cover(rect.x0 + x, rect.y0 + y);
+  }
   Grid<glm::vec3> picture(width, height, glm::vec3(0.4F));
   const Grid<glm::vec3> base = picture;
   const Grid<float> haze(width, height, 0.F);

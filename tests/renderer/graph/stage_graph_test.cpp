@@ -9,12 +9,12 @@
 #include <optional>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/grid.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -30,11 +30,10 @@ struct Product {
 Product product_of(PixelRect rect) {
   Product product{Grid<std::uint32_t>(rect.width(), rect.height()),
                   Grid<std::uint8_t>(rect.width(), rect.height())};
-  for (int y = 0; y < rect.height(); ++y)
-    for (int x = 0; x < rect.width(); ++x) {
-      product.position(x, y) = static_cast<std::uint32_t>((rect.y0 + y) * 1000 + rect.x0 + x);
-      product.column(x, y) = static_cast<std::uint8_t>(rect.x0 + x);
-    }
+  for (const auto [x, y] : test::cells(rect)) {
+    product.position(x, y) = static_cast<std::uint32_t>((rect.y0 + y) * 1000 + rect.x0 + x);
+    product.column(x, y) = static_cast<std::uint8_t>(rect.x0 + x);
+  }
   return product;
 }
 
@@ -45,12 +44,11 @@ using Numbers = Grid<std::uint32_t>;
 Numbers sums_around(const Window<Numbers>& window, PixelRect part, Reach reach) {
   Numbers sums(part.width(), part.height(), 0);
   const PixelRect inside = window.inside(part);
-  for (int y = 0; y < sums.height(); ++y)
-    for (int x = 0; x < sums.width(); ++x)
-      for (int v = -reach.rows; v <= reach.rows; ++v)
-        for (int u = -reach.columns; u <= reach.columns; ++u)
-          if (window.value.contains(inside.x0 + x + u, inside.y0 + y + v))
-            sums(x, y) += window.value(inside.x0 + x + u, inside.y0 + y + v);
+  for (const auto [x, y] : test::cells(sums))
+    for (int v = -reach.rows; v <= reach.rows; ++v)
+      for (int u = -reach.columns; u <= reach.columns; ++u)
+        if (window.value.contains(inside.x0 + x + u, inside.y0 + y + v))
+          sums(x, y) += window.value(inside.x0 + x + u, inside.y0 + y + v);
   return sums;
 }
 
@@ -271,10 +269,9 @@ TEST_P(StageGraphTest, CoarserStagesAreReadInTheirOwnPixels) {
       [](const Tile& tile, const Window<Numbers>& window) {
         EXPECT_EQ(window.scale, 4);
         Numbers nearest(tile.rect.width(), tile.rect.height());
-        for (int y = 0; y < nearest.height(); ++y)
-          for (int x = 0; x < nearest.width(); ++x)
-            nearest(x, y) = window.value((tile.rect.x0 + x) / 4 - window.rect.x0,
-                                         (tile.rect.y0 + y) / 4 - window.rect.y0);
+        for (const auto [x, y] : test::cells(nearest))
+          nearest(x, y) = window.value((tile.rect.x0 + x) / 4 - window.rect.x0,
+                                       (tile.rect.y0 + y) / 4 - window.rect.y0);
         return nearest;
       });
   const Numbers numbers = fine->read(sheet);

@@ -14,6 +14,7 @@
 #include "renderer/world/world.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -207,9 +208,8 @@ TEST_F(CachedProducts, FilesCountByWhatIsInThem) {
   const test::Folder scene_folder("scene");
   Raster<float> raster{
       Grid<float>(64, 64, 900.F), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x)
-      raster.cells(x, y) += static_cast<float>(20 * ((x * 7 + y * 5) % 40));
+  for (const auto [x, y] : test::cells(64, 64))
+    raster.cells(x, y) += static_cast<float>(20 * ((x * 7 + y * 5) % 40));
   const LoadedScene scene = parse_scene(
       "version = 1\n[[terrain.sources]]\nfile = \"dem.asc\"\n[camera]\nposition = [503000, "
       "5190000]\nheight_m = 9000\n[output]\nwidth "

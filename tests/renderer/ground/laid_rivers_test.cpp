@@ -13,6 +13,7 @@
 #include "renderer/world/scene_land_cover.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -26,10 +27,9 @@ Dem make_valley() {
   dem.altitude_m = Grid<float>(valley_cells, valley_cells);
   dem.filled = Grid<std::uint8_t>(valley_cells, valley_cells);
   dem.transform = {0.0, valley_cells * valley_cell_m, valley_cell_m, valley_cell_m};
-  for (int y = 0; y < valley_cells; ++y)
-    for (int x = 0; x < valley_cells; ++x)
-      dem.altitude_m(x, y) =
-          900.0F - 1.2F * static_cast<float>(y) + 6.0F * std::abs(static_cast<float>(x) - 59.5F);
+  for (const auto [x, y] : test::cells(valley_cells, valley_cells))
+    dem.altitude_m(x, y) =
+        900.0F - 1.2F * static_cast<float>(y) + 6.0F * std::abs(static_cast<float>(x) - 59.5F);
   return dem;
 }
 
@@ -156,12 +156,11 @@ TEST(RefinedRivers, RunWhereTheirClassMayBecomeWater) {
   const GeoTransform transform{500000.0, 5200000.0, 100.0, 100.0};
   Dem valley = make_dem({Grid<float>(101, 101), transform, normalize_crs("EPSG:32632")});
   Raster<float> codes{Grid<float>(101, 101), transform, valley.crs};
-  for (int y = 0; y < 101; ++y)
-    for (int x = 0; x < 101; ++x) {
-      valley.altitude_m(x, y) =
-          900.F - 2.F * static_cast<float>(y) + 20.F * std::abs(static_cast<float>(x - 50));
-      codes.cells(x, y) = y < 60 ? 30.F : 10.F;
-    }
+  for (const auto [x, y] : test::cells(101, 101)) {
+    valley.altitude_m(x, y) =
+        900.F - 2.F * static_cast<float>(y) + 20.F * std::abs(static_cast<float>(x - 50));
+    codes.cells(x, y) = y < 60 ? 30.F : 10.F;
+  }
   write_raster(folder / "cover.tif", codes);
   const auto water_at = [&](const std::string& refine, int row) {
     const LoadedScene scene = parse_scene(

@@ -14,6 +14,7 @@
 #include "renderer/world/scene_land_cover.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/notes.h"
 
 namespace belvedere {
@@ -38,14 +39,13 @@ class GroundMaps : public testing::Test {
     constexpr int fine = 2 * map_cells;
     std::string dem = fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\n",
                                   fine, fine, west_m, south_m, 0.5 * map_cell_m);
-    for (int j = 0; j < fine; ++j)
-      for (int i = 0; i < fine; ++i) {
-        const double x = 0.5 * i - 0.25;
-        const double y = 0.5 * j - 0.25;
-        dem += fmt::format("{:.2f}{}",
-                           900.0 - 1.2 * y + 6.0 * std::min(std::abs(x - 30), std::abs(x - 90)),
-                           i == fine - 1 ? '\n' : ' ');
-      }
+    for (const auto [i, j] : test::cells(fine, fine)) {
+      const double x = 0.5 * i - 0.25;
+      const double y = 0.5 * j - 0.25;
+      dem += fmt::format("{:.2f}{}",
+                         900.0 - 1.2 * y + 6.0 * std::min(std::abs(x - 30), std::abs(x - 90)),
+                         i == fine - 1 ? '\n' : ' ');
+    }
     folder_.write("dem.asc", dem);
   }
   static glm::dvec2 at(double x, double y) {

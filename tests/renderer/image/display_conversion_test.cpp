@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "tests/renderer/image/random_picture.h"
 
@@ -76,10 +77,8 @@ TEST_F(Color, AcesSpacesAreThosePublished) {
   Image primaries(3, 1);
   for (int c = 0; c < 3; ++c) primaries(c, 0)[c] = 1.0f;
   const Grid<glm::vec3> out = to_display(primaries, parameters);
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row)
-      EXPECT_NEAR(out(column, 0)[row], published[column][row], 5e-4) << column << " " << row;
-  }
+  for (const auto [row, column] : test::cells(3, 3))
+    EXPECT_NEAR(out(column, 0)[row], published[column][row], 5e-4) << column << " " << row;
   for (const char* space : {"aces", "acescg"}) {
     parameters.working = space;
     const Grid<glm::vec3> grey = to_display(grey_ramp(11, 0.0, 1.0), parameters);

@@ -15,6 +15,7 @@
 #include "base/guidance_buffers.h"
 #include "base/random.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/renderer/image/picture_bytes.h"
 
@@ -52,10 +53,9 @@ GuidanceBuffers make_guidance(int width, int height) {
     std::visit(
         [&](auto member) {
           auto& grid = g.*member;
-          for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-              grid(x, y) = some_value<typename std::decay_t<decltype(grid)>::value_type>(channel, x,
-                                                                                         y, draw);
+          for (const auto [x, y] : test::cells(width, height))
+            grid(x, y) =
+                some_value<typename std::decay_t<decltype(grid)>::value_type>(channel, x, y, draw);
         },
         channel.member);
   }
@@ -94,11 +94,10 @@ TEST(GuidanceIo, EveryChannelComesBack) {
         },
         channel.member);
   }
-  for (int y = 0; y < 150; ++y)
-    for (int x = 2; x < 100; ++x) {
-      ASSERT_NEAR(glm::length(r.normal(x, y)), 1.0, 1e-6) << "made unit again";
-      ASSERT_NEAR(glm::length(r.fall_line(x, y)), 1.0, 1e-6);
-    }
+  for (const auto [x, y] : test::cells({2, 0, 100, 150})) {
+    ASSERT_NEAR(glm::length(r.normal(x, y)), 1.0, 1e-6) << "made unit again";
+    ASSERT_NEAR(glm::length(r.fall_line(x, y)), 1.0, 1e-6);
+  }
   EXPECT_EQ(r.fall_line(1, 5), glm::vec2(0.0f)) << "flat ground has no direction";
 }
 

@@ -16,6 +16,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/image/exr/mixed_channels.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "tests/renderer/image/random_picture.h"
@@ -321,10 +322,8 @@ TEST(ReadPicture, JpegIsReadWhole) {
   test::write_bytes(folder / "a.jpg", jpeg_bytes);
   const Grid<glm::vec3> picture = read_picture(folder / "a.jpg");
   ASSERT_EQ(picture.height(), 32);
-  for (int y = 0; y < 32; ++y) {
-    for (int x = 0; x < 32; ++x)
-      ASSERT_NEAR(picture(x, y).x * 255.0, (4 * y + 3 * x) % 256, 8.0) << x << " " << y;
-  }
+  for (const auto [x, y] : test::cells(32, 32))
+    ASSERT_NEAR(picture(x, y).x * 255.0, (4 * y + 3 * x) % 256, 8.0) << x << " " << y;
 }
 
 // Exif 2.32, 4.6.4 A: where the stored first row and column belong.

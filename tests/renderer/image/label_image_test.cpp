@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "tests/grids.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "texture/synthesis/exemplar.h"
 
@@ -21,14 +22,13 @@ class LabelImage : public testing::Test {
   // Left red, right blue, between them two columns of a soft edge; `third` fills the lowest rows.
   std::string draw(const std::string& name, const std::string& third) const {
     std::string rows;
-    for (int y = 0; y < 16; ++y)
-      for (int x = 0; x < 20; ++x) {
-        const std::string mixed = x == 9 ? "\xaa\x30\x55" : "\x55\x30\xaa";
-        rows += y >= 12  ? third
-                : x < 9  ? std::string("\xff\0\0", 3)
-                : x > 10 ? std::string("\0\0\xff", 3)
-                         : mixed;
-      }
+    for (const auto [x, y] : test::cells(20, 16)) {
+      const std::string mixed = x == 9 ? "\xaa\x30\x55" : "\x55\x30\xaa";
+      rows += y >= 12  ? third
+              : x < 9  ? std::string("\xff\0\0", 3)
+              : x > 10 ? std::string("\0\0\xff", 3)
+                       : mixed;
+    }
     return write(name, 2, rows);
   }
   std::string write(const std::string& name, int colour_type, const std::string& rows) const {
@@ -91,16 +91,15 @@ TEST_F(LabelImage, RefusesWhatTellsNoLabels) {
 TEST_F(LabelImage, ColoursOffByLossesAreTheFrequentOnes) {
   const auto rows = [](int off) {
     std::string out;
-    for (int y = 0; y < 16; ++y)
-      for (int x = 0; x < 20; ++x) {
-        const int red = x < 10 ? 200 : 40;
-        if (x >= 2 && x < 5 && y >= 2 && y < 5)
-          out += {static_cast<char>(red - off), '\x30', '\x30'};
-        else if (x == 9 || x == 10)
-          out += {static_cast<char>(90 + y), static_cast<char>(x), '\x50'};
-        else
-          out += {static_cast<char>(red), '\x30', '\x30'};
-      }
+    for (const auto [x, y] : test::cells(20, 16)) {
+      const int red = x < 10 ? 200 : 40;
+      if (x >= 2 && x < 5 && y >= 2 && y < 5)
+        out += {static_cast<char>(red - off), '\x30', '\x30'};
+      else if (x == 9 || x == 10)
+        out += {static_cast<char>(90 + y), static_cast<char>(x), '\x50'};
+      else
+        out += {static_cast<char>(red), '\x30', '\x30'};
+    }
     return out;
   };
   struct Notes : Progress {
@@ -121,8 +120,8 @@ TEST_F(LabelImage, ColoursOffByLossesAreTheFrequentOnes) {
 // Numbers saved as RGB lie one step apart and are different labels.
 TEST_F(LabelImage, NeighbouringColoursOfALosslessDrawingStayApart) {
   std::string rows;
-  for (int y = 0; y < 16; ++y)
-    for (int x = 0; x < 20; ++x) rows += std::string(3, x < 4 && y < 4 ? '\2' : '\1');
+  for (const auto [x, y] : test::cells(20, 16))
+    rows += std::string(3, x < 4 && y < 4 ? '\2' : '\1');
   EXPECT_EQ(read_label_images({write("a.png", 2, rows)}).colours.size(), 2U);
 }
 

@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "base/error.h"
-#include "renderer/image/image_io.h"
 #include "renderer/image/provenance.h"
 #include "tests/files.h"
 

@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -305,8 +306,7 @@ TEST(Labels, InksFollowTheGround) {
   LabelSheet sheet = sheet_of({of_kind("Dunkel", "summit"), of_kind("Hell", "summit")},
                               {seen_at(500, 400), seen_at(1500, 400)});
   Grid<float> luminance(200, 80, .4F);
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 100; ++x) luminance(x, y) = .02F;
+  for (const auto [x, y] : test::cells(100, 80)) luminance(x, y) = .02F;
   choose_inks(sheet, luminance);
   EXPECT_TRUE(sheet.labels[0].on_dark);
   EXPECT_FALSE(sheet.labels[1].on_dark);

@@ -1,6 +1,5 @@
 #include "renderer/labels/margin.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "renderer/world/world.h"

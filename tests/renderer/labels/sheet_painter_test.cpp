@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <glm/common.hpp>
-#include <string>
 
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/text/hex_colour.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -141,11 +140,10 @@ Drawing named() {
 
 Grid<glm::vec3> ground() {
   Grid<glm::vec3> picture(500, 300);
-  for (int y = 0; y < 300; ++y)
-    for (int x = 0; x < 500; ++x)
-      for (int c = 0; c < 3; ++c)
-        picture(x, y)[c] = static_cast<float>(random_uniform(9, 500 * y + x, c)) *
-                           (.3F + .7F * static_cast<float>(x) / 500.0F);
+  for (const auto [x, y] : test::cells(500, 300))
+    for (int c = 0; c < 3; ++c)
+      picture(x, y)[c] = static_cast<float>(random_uniform(9, 500 * y + x, c)) *
+                         (.3F + .7F * static_cast<float>(x) / 500.0F);
   return picture;
 }
 
@@ -187,15 +185,14 @@ TEST(SheetPainter, LettersStandOutOfThePainting) {
   Grid<glm::vec3> mask(500, 300, glm::vec3(1.0F));
   SheetPainter(letters).paint(mask, {0, 0});
   int beside = 0;
-  for (int y = 2; y < 298; ++y)
-    for (int x = 2; x < 498; ++x) {
-      bool near_letter = false;
-      for (int dy = -2; dy <= 2; ++dy)
-        for (int dx = -2; dx <= 2; ++dx) near_letter |= mask(x + dx, y + dy) == glm::vec3(0.0F);
-      if (!near_letter || mask(x, y) != glm::vec3(1.0F)) continue;
-      ++beside;
-      EXPECT_GE(contrast(pixels(x, y), ink), 4.45) << x << ',' << y;
-    }
+  for (const auto [x, y] : test::cells({2, 2, 498, 298})) {
+    bool near_letter = false;
+    for (int dy = -2; dy <= 2; ++dy)
+      for (int dx = -2; dx <= 2; ++dx) near_letter |= mask(x + dx, y + dy) == glm::vec3(0.0F);
+    if (!near_letter || mask(x, y) != glm::vec3(1.0F)) continue;
+    ++beside;
+    EXPECT_GE(contrast(pixels(x, y), ink), 4.45) << x << ',' << y;
+  }
   EXPECT_GT(beside, 500);
 }
 

@@ -8,6 +8,7 @@
 
 #include "renderer/labels/drawing_svg.h"
 #include "renderer/world/world.h"
+#include "tests/grids.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -31,9 +32,8 @@ class Tracks : public testing::Test {
 // Up and down a roof of 1:10 on 4 km: the ascent is known.
 TEST_F(Tracks, LengthAndAscentOfARoof) {
   Grid<float> roof(bare_.dem->width(), bare_.dem->height());
-  for (int y = 0; y < roof.height(); ++y)
-    for (int x = 0; x < roof.width(); ++x)
-      roof(x, y) = 1000.F - 10.F * static_cast<float>(std::abs(x - 60));  // 100 m a cell
+  for (const auto [x, y] : test::cells(roof))
+    roof(x, y) = 1000.F - 10.F * static_cast<float>(std::abs(x - 60));  // 100 m a cell
   const double centre = bare_.dem->transform.to_crs(60.0, 0.0).x;
   const Track track = track_of(
       {{centre - 2000.0, 6000.0}, {centre + 2000.0, 6000.0}, {centre - 1000.0, 6000.0}}, &roof);

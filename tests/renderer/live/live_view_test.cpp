@@ -15,6 +15,7 @@
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/pipeline/painted_scene.h"
 #include "tests/scenes.h"
 
@@ -161,8 +162,7 @@ TEST(LiveView, TilesCoverThePictureOnceFromTheMiddleAndEqualTheWhole) {
       live.paint(scene, rung, {}, [&](PixelRect rect, const Grid<glm::vec3>& colour) {
         rects.push_back(rect);
         EXPECT_TRUE(colour == part_of(whole, rect));
-        for (int y = rect.y0; y < rect.y1; ++y)
-          for (int x = rect.x0; x < rect.x1; ++x) ++count(x, y);
+        for (const auto [x, y] : test::cells(rect)) ++count(x, y);
       });
   EXPECT_TRUE(tiled.colour == whole);
   for (const int n : count) ASSERT_EQ(n, 1);
@@ -181,19 +181,18 @@ TEST(LiveView, SeenHasThePositionUnderAPixel) {
   const LivePicture picture = LiveView().paint(scene, rungs().front(), {});
   const World world = make_world(scene, silent_progress());
   int ground = 0;
-  for (int y = 1; y < 40; y += 3)
-    for (int x = 1; x < 48; x += 3) {
-      const std::size_t i = picture.seen.depth_m.index(x, y);
-      if (std::isinf(picture.seen.depth_m[i])) continue;
-      ++ground;
-      const glm::dvec3 at = glm::dvec3(picture.seen.position_m[i]) + picture.seen.origin_m;
-      const auto seen_at = world.camera->project(world.deformation.point(at));
-      ASSERT_TRUE(seen_at);
-      EXPECT_NEAR(seen_at->x, x + 0.5, 1.0);
-      EXPECT_NEAR(seen_at->y, y + 0.5, 1.0);
-      EXPECT_NEAR(glm::length(at - picture.view.camera.eye), picture.seen.depth_m[i],
-                  0.03 * picture.seen.depth_m[i]);
-    }
+  for (const auto [x, y] : test::cells({1, 1, 48, 40}, 3)) {
+    const std::size_t i = picture.seen.depth_m.index(x, y);
+    if (std::isinf(picture.seen.depth_m[i])) continue;
+    ++ground;
+    const glm::dvec3 at = glm::dvec3(picture.seen.position_m[i]) + picture.seen.origin_m;
+    const auto seen_at = world.camera->project(world.deformation.point(at));
+    ASSERT_TRUE(seen_at);
+    EXPECT_NEAR(seen_at->x, x + 0.5, 1.0);
+    EXPECT_NEAR(seen_at->y, y + 0.5, 1.0);
+    EXPECT_NEAR(glm::length(at - picture.view.camera.eye), picture.seen.depth_m[i],
+                0.03 * picture.seen.depth_m[i]);
+  }
   EXPECT_GT(ground, 50);
 }
 

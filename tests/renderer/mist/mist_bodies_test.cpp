@@ -6,6 +6,8 @@
 #include <limits>
 #include <memory>
 
+#include "tests/grids.h"
+
 namespace belvedere {
 namespace {
 
@@ -18,8 +20,8 @@ double valley_m(double east) {
 
 MistGround valley_ground(bool floors = true) {
   Grid<float> altitude(300, 300);
-  for (int y = 0; y < 300; ++y)
-    for (int x = 0; x < 300; ++x) altitude(x, y) = static_cast<float>(valley_m((x + 0.5) * cell));
+  for (const auto [x, y] : test::cells(300, 300))
+    altitude(x, y) = static_cast<float>(valley_m((x + 0.5) * cell));
   const Grid<float> rim(300, 300, 1e6F);
   return make_mist_ground(altitude, rim, {0.0, 18000.0, cell, cell}, floors);
 }
@@ -100,13 +102,11 @@ struct Scenery {
   glm::dvec2 shares(double depth_m) const {
     LeeEdges edges(*cloud);
     glm::dvec2 sum(0.0);
-    for (int y = 0; y < 200; ++y)
-      for (int x = 0; x < 400; ++x) {
-        const glm::dvec2 pixel(x + 0.5, y + 0.5);
-        const LeeSight sight =
-            see_lee_cloud(*cloud, edges, camera->ray(pixel), pixel, depth_m, sun);
-        (x < 200 ? sum.x : sum.y) += static_cast<double>(sight.share);
-      }
+    for (const auto [x, y] : test::cells(400, 200)) {
+      const glm::dvec2 pixel(x + 0.5, y + 0.5);
+      const LeeSight sight = see_lee_cloud(*cloud, edges, camera->ray(pixel), pixel, depth_m, sun);
+      (x < 200 ? sum.x : sum.y) += static_cast<double>(sight.share);
+    }
     return sum;
   }
   std::unique_ptr<Camera> camera;
@@ -139,13 +139,12 @@ TEST(LeeCloud, ItsBoxHoldsAllOfIt) {
   open.from_px = glm::dvec2(-1e9);
   open.to_px = glm::dvec2(1e9);
   LeeEdges same(open);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 400; ++x) {
-      const glm::dvec2 pixel(x + 0.5, y + 0.5);
-      const Ray ray = scenery.camera->ray(pixel);
-      EXPECT_EQ(see_lee_cloud(*scenery.cloud, edges, ray, pixel, no_ground, sun).share,
-                see_lee_cloud(open, same, ray, pixel, no_ground, sun).share);
-    }
+  for (const auto [x, y] : test::cells(400, 200)) {
+    const glm::dvec2 pixel(x + 0.5, y + 0.5);
+    const Ray ray = scenery.camera->ray(pixel);
+    EXPECT_EQ(see_lee_cloud(*scenery.cloud, edges, ray, pixel, no_ground, sun).share,
+              see_lee_cloud(open, same, ray, pixel, no_ground, sun).share);
+  }
 }
 
 TEST(LeeCloud, IsLitFromTheSunsSide) {
@@ -153,14 +152,13 @@ TEST(LeeCloud, IsLitFromTheSunsSide) {
   LeeEdges edges(*scenery.cloud);
   const auto mean_light = [&](glm::dvec3 towards_sun) {
     double light = 0.0, share = 0.0;
-    for (int y = 0; y < 200; ++y)
-      for (int x = 200; x < 400; ++x) {
-        const glm::dvec2 pixel(x + 0.5, y + 0.5);
-        const LeeSight sight = see_lee_cloud(*scenery.cloud, edges, scenery.camera->ray(pixel),
-                                             pixel, no_ground, towards_sun);
-        light += static_cast<double>(sight.share * sight.light);
-        share += static_cast<double>(sight.share);
-      }
+    for (const auto [x, y] : test::cells({200, 0, 400, 200})) {
+      const glm::dvec2 pixel(x + 0.5, y + 0.5);
+      const LeeSight sight = see_lee_cloud(*scenery.cloud, edges, scenery.camera->ray(pixel), pixel,
+                                           no_ground, towards_sun);
+      light += static_cast<double>(sight.share * sight.light);
+      share += static_cast<double>(sight.share);
+    }
     return light / share;
   };
   EXPECT_GT(mean_light({0.9, 0.0, 0.43}), mean_light({-0.9, 0.0, 0.43}) + 0.05);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/grid.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -19,17 +20,16 @@ MistSight bank() {
   MistSight sight{Grid<float>(width, height, 0.F),
                   Grid<float>(width, height, std::numeric_limits<float>::infinity()),
                   Grid<float>(width, height, 0.F), Grid<float>(width, height, 0.F)};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const float away =
-          std::hypot((static_cast<float>(x) - 110.F) / 90.F, (static_cast<float>(y) - 80.F) / 60.F);
-      if (away >= 1.F) continue;
-      sight.share(x, y) = std::min(1.F, 3.F * (1.F - away));
-      sight.depth_m(x, y) = x < 60 ? 9000.F : 20000.F + 10.F * static_cast<float>(height - y);
-      sight.light(x, y) = 0.5F + 0.4F * std::sin(static_cast<float>(x) * 0.1F) *
-                                     std::cos(static_cast<float>(y) * 0.13F);
-      sight.altitude_m(x, y) = 1500.F;
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const float away =
+        std::hypot((static_cast<float>(x) - 110.F) / 90.F, (static_cast<float>(y) - 80.F) / 60.F);
+    if (away >= 1.F) continue;
+    sight.share(x, y) = std::min(1.F, 3.F * (1.F - away));
+    sight.depth_m(x, y) = x < 60 ? 9000.F : 20000.F + 10.F * static_cast<float>(height - y);
+    sight.light(x, y) = 0.5F + 0.4F * std::sin(static_cast<float>(x) * 0.1F) *
+                                   std::cos(static_cast<float>(y) * 0.13F);
+    sight.altitude_m(x, y) = 1500.F;
+  }
   return sight;
 }
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "base/grid.h"
 #include "base/parallel.h"
+#include "tests/grids.h"
 #include "tests/renderer/trace/synthetic_ground.h"
 
 namespace belvedere {
@@ -179,10 +179,9 @@ TEST(MistSight, SummitsThrowShadowsOnTheSea) {
   const MistSight open = see_mist(air, view, guidance.depth_m, {0, 0});
   // The sun is in the east, on the left of a view to the south: the shadow falls to the right.
   int left = 0, right = 0;
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x)
-      if (shaded.share(x, y) > 0.9F && shaded.light(x, y) < 0.8F * open.light(x, y))
-        ++(x < 80 ? left : right);
+  for (const auto [x, y] : test::cells(160, 120))
+    if (shaded.share(x, y) > 0.9F && shaded.light(x, y) < 0.8F * open.light(x, y))
+      ++(x < 80 ? left : right);
   EXPECT_GT(right, 40);
   EXPECT_GT(right, 4 * left);
 }

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "renderer/paint/ground/base_surroundings.h"
 #include "renderer/paint/sky.h"
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "tests/renderer/paint/hills_print.h"
 #include "tests/renderer/paint/near_colours.h"
@@ -90,8 +91,7 @@ TEST(Base, NearSnowIsWarmInLightAndVioletInShade) {
 TEST(Base, TonguesAreIceAndFirnIsSnow) {
   GuidanceBuffers g = make_slope(200, 40, LandCoverClass::glacier, {0.0F, 0.0F, 1.0F}, 10.0F);
   g.footprint_m = Grid<float>(200, 40, 40.0F);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 20; ++x) g.land_cover(x, y) = LandCoverClass::scree;
+  for (const auto [x, y] : test::cells(20, 40)) g.land_cover(x, y) = LandCoverClass::scree;
   const Palette palette = read_palette("summer");
   const BasePicture base = picture_of(g, plain());
   const glm::vec3 ice = palette_colour(palette, LandCoverClass::glacier, 1200.0, 0.6);
@@ -108,8 +108,8 @@ TEST(Base, TonguesAreIceAndFirnIsSnow) {
 // Lit ground reflects warm light into the shade of a wall, at its foot and nowhere else.
 TEST(Base, ShadeOfWallsIsWarmAtTheirFoot) {
   GuidanceBuffers g = make_slope(30, 120, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 50.0F);
-  for (int y = 90; y < 120; ++y)
-    for (int x = 0; x < 30; ++x) g.land_cover(x, y) = LandCoverClass::alpine_grass;
+  for (const auto [x, y] : test::cells({0, 90, 30, 120}))
+    g.land_cover(x, y) = LandCoverClass::alpine_grass;
   g.rock_facet = Grid<std::uint32_t>(30, 120, 0x00070009U);
   g.rock_cover = Grid<glm::vec2>(30, 120, glm::vec2(0.0F));
   const auto warmth = [&](float tone, int y) {
@@ -183,8 +183,7 @@ TEST(Base, FarGroundTurnsIntoAirAndNearGroundIsWarm) {
 GuidanceBuffers make_end(float relief_l_m) {
   GuidanceBuffers g = make_slope(9, 6, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
   g.rim_m = Grid<float>(9, 6);
-  for (int y = 0; y < 6; ++y)
-    for (int x = 0; x < 9; ++x) g.rim_m(x, y) = 500.0F * static_cast<float>(x);
+  for (const auto [x, y] : test::cells(9, 6)) g.rim_m(x, y) = 500.0F * static_cast<float>(x);
   for (float& d : g.depth_m) d = 20000.0F;
   g.relief_l_m = Grid<float>(9, 6, relief_l_m);
   return g;
@@ -275,8 +274,7 @@ TEST(Base, MistOfFarRangesIsOfUnlikeDepth) {
 TEST(Base, MistLiesInValleys) {
   const auto behind_edge = [](float relief_l_m) {
     GuidanceBuffers g = make_slope(20, 160, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
-    for (int y = 0; y < 80; ++y)
-      for (int x = 0; x < 20; ++x) g.depth_m(x, y) = 32000.0F;
+    for (const auto [x, y] : test::cells(20, 80)) g.depth_m(x, y) = 32000.0F;
     for (float& r : g.relief_l_m) r = relief_l_m;
     BaseParameters p = plain();
     p.air.range_mist = 1.0;
@@ -306,8 +304,7 @@ TEST(Base, RangesReadApart) {
   // A near range in front of a far one of the same colour: the far side lightens towards the edge,
   // the near side darkens.
   GuidanceBuffers g = make_slope(20, 160, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 20; ++x) g.depth_m(x, y) = 32000.0F;
+  for (const auto [x, y] : test::cells(20, 80)) g.depth_m(x, y) = 32000.0F;
   BaseParameters p = plain();
   p.air.range_mist = 1.0;
   const BasePicture base = picture_of(g, p);
@@ -327,11 +324,10 @@ TEST(Base, AccentsFollowRelief) {
 
 TEST(Base, ForestThinsTowardsItsBorderAndDwarfPineStandsThere) {
   GuidanceBuffers g = make_slope(60, 60, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 20.0F);
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 60; ++x) {
-      g.position_m(x, y) = glm::vec3(40.0F * x, -40.0F * y, 1800.0F);
-      if (y < 30) g.land_cover(x, y) = LandCoverClass::alpine_grass;
-    }
+  for (const auto [x, y] : test::cells(60, 60)) {
+    g.position_m(x, y) = glm::vec3(40.0F * x, -40.0F * y, 1800.0F);
+    if (y < 30) g.land_cover(x, y) = LandCoverClass::alpine_grass;
+  }
   const BasePicture base = picture_of(g);
   double inside = 0.0, border = 0.0, above = 0.0, high = 0.0;
   for (int x = 0; x < 60; ++x) {
@@ -348,12 +344,11 @@ TEST(Base, ForestThinsTowardsItsBorderAndDwarfPineStandsThere) {
 
 TEST(Base, RiversHaveBanksOfGravelHereAndThere) {
   GuidanceBuffers g = make_slope(60, 600, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 1.0F);
-  for (int y = 0; y < 600; ++y)
-    for (int x = 0; x < 60; ++x) {
-      g.position_m(x, y) =
-          glm::vec3(20.0F * static_cast<float>(x), -20.0F * static_cast<float>(y), 600.0F);
-      if (x >= 28 && x < 32) g.land_cover(x, y) = LandCoverClass::water;
-    }
+  for (const auto [x, y] : test::cells(60, 600)) {
+    g.position_m(x, y) =
+        glm::vec3(20.0F * static_cast<float>(x), -20.0F * static_cast<float>(y), 600.0F);
+    if (x >= 28 && x < 32) g.land_cover(x, y) = LandCoverClass::water;
+  }
   const BasePicture base = picture_of(g, plain());
   int gravel = 0;
   for (int y = 0; y < 600; ++y) {
@@ -380,16 +375,15 @@ TEST(Base, PartEqualsWhole) {
     ASSERT_GT(part.x0, 0);
     const BasePicture base = make_base_picture(cut(hills, part), palette, p, {part.x0, part.y0},
                                                {width, height}, silent_progress());
-    for (int y = kept.y0; y < kept.y1; ++y)
-      for (int x = kept.x0; x < kept.x1; ++x) {
-        const int px = x - part.x0, py = y - part.y0;
-        ASSERT_EQ(base.colour(px, py), whole.colour(x, y)) << x << " " << y << " ppu " << ppu;
-        ASSERT_EQ(base.darker(px, py), whole.darker(x, y));
-        ASSERT_EQ(base.lighter(px, py), whole.lighter(x, y));
-        ASSERT_EQ(base.accent(px, py), whole.accent(x, y));
-        ASSERT_EQ(base.tree_density(px, py), whole.tree_density(x, y));
-        ASSERT_EQ(base.haze(px, py), whole.haze(x, y));
-      }
+    for (const auto [x, y] : test::cells(kept)) {
+      const int px = x - part.x0, py = y - part.y0;
+      ASSERT_EQ(base.colour(px, py), whole.colour(x, y)) << x << " " << y << " ppu " << ppu;
+      ASSERT_EQ(base.darker(px, py), whole.darker(x, y));
+      ASSERT_EQ(base.lighter(px, py), whole.lighter(x, y));
+      ASSERT_EQ(base.accent(px, py), whole.accent(x, y));
+      ASSERT_EQ(base.tree_density(px, py), whole.tree_density(x, y));
+      ASSERT_EQ(base.haze(px, py), whole.haze(x, y));
+    }
   }
 }
 
@@ -402,9 +396,8 @@ TEST(Base, OfAPrintLooksAroundInItsWideView) {
   const Palette palette = read_palette("summer");
   // A lake, which searches up and down for its shores, and level ground above it, which searches
   // for water.
-  for (int y = 690; y < 1000; ++y)
-    for (int x = 300; x < 1100; ++x)
-      print.near.land_cover(x, y) = y < 760 ? LandCoverClass::valley_floor : LandCoverClass::water;
+  for (const auto [x, y] : test::cells({300, 690, 1100, 1000}))
+    print.near.land_cover(x, y) = y < 760 ? LandCoverClass::valley_floor : LandCoverClass::water;
   const glm::ivec2 size{print.width, print.height};
   const BasePicture whole = make_base_picture(print.near, {print.far, test::print_factor}, palette,
                                               p, {0, 0}, size, silent_progress());

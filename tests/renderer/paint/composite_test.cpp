@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -83,17 +84,14 @@ TEST(TransferResidual, KeepsTheMeanLuminanceOfLitGround) {
   exemplar.picture = exemplar.base = Grid<glm::vec3>(width, height);
   Grid<glm::vec3> target(width, height);
   MatchField matches(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const float light = light_at(1, x, y);
-      exemplar.base(x, y) = glm::vec3(0.9F, 1.0F, 0.7F) * light;
-      exemplar.picture(x, y) =
-          exemplar.base(x, y) +
-          glm::vec3(static_cast<float>(0.12 * (random_uniform(2, x, y) - 0.5)));
-      const float asked = light + static_cast<float>(0.1 * (random_uniform(3, x, y) - 0.5));
-      target(x, y) = glm::vec3(0.9F, 1.0F, 0.7F) * asked;
-      matches(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const float light = light_at(1, x, y);
+    exemplar.base(x, y) = glm::vec3(0.9F, 1.0F, 0.7F) * light;
+    exemplar.picture(x, y) =
+        exemplar.base(x, y) + glm::vec3(static_cast<float>(0.12 * (random_uniform(2, x, y) - 0.5)));
+    const float asked = light + static_cast<float>(0.1 * (random_uniform(3, x, y) - 0.5));
+    target(x, y) = glm::vec3(0.9F, 1.0F, 0.7F) * asked;
+    matches(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
   }
   const auto luminance = [](const Grid<glm::vec3>& encoded) {
     double sum = 0.0;
@@ -142,16 +140,15 @@ TEST(LayModelPaint, IsTheLawOfCopies) {
   Grid<glm::vec3> base(classes, 2);
   Grid<LandCoverClass> shown(classes, 2);
   Grid<float> haze(classes, 2);
-  for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < classes; ++x) {
-      matches(x, y) = {0, static_cast<std::uint16_t>(x % 3), static_cast<std::uint16_t>(y)};
-      paint.made(x, y) = 1;
-      paint.texel(x, y) = exemplars[0].picture(x % 3, y);
-      paint.base(x, y) = exemplars[0].base(x % 3, y);
-      base(x, y) = glm::vec3(0.05F * static_cast<float>(x), 0.5F, 0.3F);
-      shown(x, y) = static_cast<LandCoverClass>(x);
-      haze(x, y) = 0.3F * static_cast<float>(y);
-    }
+  for (const auto [x, y] : test::cells(classes, 2)) {
+    matches(x, y) = {0, static_cast<std::uint16_t>(x % 3), static_cast<std::uint16_t>(y)};
+    paint.made(x, y) = 1;
+    paint.texel(x, y) = exemplars[0].picture(x % 3, y);
+    paint.base(x, y) = exemplars[0].base(x % 3, y);
+    base(x, y) = glm::vec3(0.05F * static_cast<float>(x), 0.5F, 0.3F);
+    shown(x, y) = static_cast<LandCoverClass>(x);
+    haze(x, y) = 0.3F * static_cast<float>(y);
+  }
   const Grid<glm::vec3> copied = transfer_residual(matches, exemplars, base, haze, 0.75, shown);
   Grid<glm::vec3> made(classes, 2, glm::vec3(-1.F));
   paint.made(1, 1) = 0;
@@ -174,8 +171,7 @@ TEST(TransferResidual, RefusesMatchesOutside) {
 // Pasture left of x = 20, rock right of it.
 Grid<LandCoverClass> two_classes() {
   Grid<LandCoverClass> classes(40, 30, LandCoverClass::pasture);
-  for (int y = 0; y < 30; ++y)
-    for (int x = 20; x < 40; ++x) classes(x, y) = LandCoverClass::rock;
+  for (const auto [x, y] : test::cells({20, 0, 40, 30})) classes(x, y) = LandCoverClass::rock;
   return classes;
 }
 
@@ -266,12 +262,10 @@ TEST(MixBorders, RefusesGridsOfDifferentSize) {
 // samples: accurate to 1e-3.
 double covered(int x, int y, double slope, double offset) {
   int inside = 0;
-  for (int j = 0; j < 64; ++j) {
-    for (int i = 0; i < 64; ++i) {
-      const double u = x - 0.5 + (i + 0.5) / 64;
-      const double v = y - 0.5 + (j + 0.5) / 64;
-      inside += v > slope * u + offset ? 1 : 0;
-    }
+  for (const auto [i, j] : test::cells(64, 64)) {
+    const double u = x - 0.5 + (i + 0.5) / 64;
+    const double v = y - 0.5 + (j + 0.5) / 64;
+    inside += v > slope * u + offset ? 1 : 0;
   }
   return inside / 4096.0;
 }
@@ -289,15 +283,13 @@ Edge make_edge(double slope, float far_depth, glm::vec3 near_colour, glm::vec3 f
   Edge e{Grid<glm::vec3>(size, size), {}, Grid<float>(size, size)};
   e.guidance.depth_m = Grid<float>(size, size);
   e.guidance.front = Grid<float>(size, size);
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      const double part = covered(x, y, slope, 12.3);
-      const bool near = part >= 0.5;
-      e.coverage(x, y) = static_cast<float>(part);
-      e.picture(x, y) = near ? near_colour : far_colour;
-      e.guidance.depth_m(x, y) = near ? 5000.0f : far_depth;
-      e.guidance.front(x, y) = static_cast<float>(near ? part : 1.0 - part);
-    }
+  for (const auto [x, y] : test::cells(size, size)) {
+    const double part = covered(x, y, slope, 12.3);
+    const bool near = part >= 0.5;
+    e.coverage(x, y) = static_cast<float>(part);
+    e.picture(x, y) = near ? near_colour : far_colour;
+    e.guidance.depth_m(x, y) = near ? 5000.0f : far_depth;
+    e.guidance.front(x, y) = static_cast<float>(near ? part : 1.0 - part);
   }
   return e;
 }
@@ -312,14 +304,12 @@ TEST(BlendEdges, GivesTheLightOfTheCoveredArea) {
       const Image pure = decode_srgb(Grid<glm::vec3>(2, 1, near_colour));
       const Image sky = decode_srgb(Grid<glm::vec3>(2, 1, far_colour));
       double largest = 0.0;
-      for (int y = 0; y < out.height(); ++y) {
-        for (int x = 0; x < out.width(); ++x) {
-          const float part = e.coverage(x, y);
-          const glm::vec3 expected = part * pure(0, 0) + (1.0f - part) * sky(0, 0);
-          for (int c = 0; c < 3; ++c)
-            largest = std::max(
-                largest, static_cast<double>(std::abs(out(x, y)[c] - expected[c]) / sky(0, 0)[c]));
-        }
+      for (const auto [x, y] : test::cells(out)) {
+        const float part = e.coverage(x, y);
+        const glm::vec3 expected = part * pure(0, 0) + (1.0f - part) * sky(0, 0);
+        for (int c = 0; c < 3; ++c)
+          largest = std::max(
+              largest, static_cast<double>(std::abs(out(x, y)[c] - expected[c]) / sky(0, 0)[c]));
       }
       EXPECT_LT(largest, 0.05) << slope << " " << far_depth;
     }
@@ -328,10 +318,8 @@ TEST(BlendEdges, GivesTheLightOfTheCoveredArea) {
 
 TEST(BlendEdges, LeavesWholePixelsAlone) {
   Edge e = make_edge(0.37, infinity, glm::vec3(0.2f), glm::vec3(0.9f));
-  for (int y = 0; y < 40; ++y) {
-    for (int x = 0; x < 40; ++x)
-      e.picture(x, y) += static_cast<float>(0.05 * random_uniform(4, x, y));
-  }
+  for (const auto [x, y] : test::cells(40, 40))
+    e.picture(x, y) += static_cast<float>(0.05 * random_uniform(4, x, y));
   const Grid<glm::vec3> out = blend_edges(e.picture, e.guidance);
   int changed = 0;
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -350,11 +338,9 @@ TEST(BlendEdges, OneSurfaceIsNotBlurred) {
   guidance.depth_m = Grid<float>(8, 8);
   guidance.front = Grid<float>(8, 8, 0.6f);
   Grid<glm::vec3> picture(8, 8);
-  for (int y = 0; y < 8; ++y) {
-    for (int x = 0; x < 8; ++x) {
-      guidance.depth_m(x, y) = 1000.0f + 10.0f * static_cast<float>(x + y);
-      picture(x, y) = glm::vec3(static_cast<float>(random_uniform(4, x, y)));
-    }
+  for (const auto [x, y] : test::cells(8, 8)) {
+    guidance.depth_m(x, y) = 1000.0f + 10.0f * static_cast<float>(x + y);
+    picture(x, y) = glm::vec3(static_cast<float>(random_uniform(4, x, y)));
   }
   EXPECT_EQ(blend_edges(picture, guidance), picture);
   guidance.depth_m = Grid<float>(8, 8, infinity);

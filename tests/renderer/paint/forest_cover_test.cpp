@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/paint/base_picture.h"
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "tests/texture/strokes/stroke_picture.h"
 
@@ -17,10 +18,9 @@ using enum LandCoverClass;
 GuidanceBuffers wood(int width, int height, float ppu = 1.0F) {
   GuidanceBuffers g = test::make_slope(width, height, forest, {0.0F, 0.0F, 1.0F}, 28.0F);
   const float metres = 20.0F / ppu;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      g.position_m(x, y) = {metres * (static_cast<float>(x) + 0.5F),
-                            -metres * (static_cast<float>(y) + 0.5F), 1700.0F};
+  for (const auto [x, y] : test::cells(width, height))
+    g.position_m(x, y) = {metres * (static_cast<float>(x) + 0.5F),
+                          -metres * (static_cast<float>(y) + 0.5F), 1700.0F};
   g.footprint_m = Grid<float>(width, height, metres);
   return g;
 }
@@ -78,13 +78,11 @@ TEST(ForestCover, GladesAreBareAndFew) {
 TEST(ForestCover, ThinsToTheTreelineNotToTheMeadow) {
   const auto density_at_edge = [](LandCoverClass beyond, bool above) {
     GuidanceBuffers g = wood(600, 160);
-    for (int y = 0; y < 160; ++y)
-      for (int x = 0; x < 600; ++x)
-        if (above ? y < 40 : y >= 120) g.land_cover(x, y) = beyond;
+    for (const auto [x, y] : test::cells(600, 160))
+      if (above ? y < 40 : y >= 120) g.land_cover(x, y) = beyond;
     const ForestCover cover = make_forest_cover(g, {g}, {}, {0, 0});
     double sum = 0.0;
-    for (int k = 0; k < 8; ++k)
-      for (int x = 0; x < 600; ++x) sum += cover.density(x, above ? 40 + k : 119 - k);
+    for (const auto [x, k] : test::cells(600, 8)) sum += cover.density(x, above ? 40 + k : 119 - k);
     return sum / 4800.0;
   };
   EXPECT_LT(density_at_edge(alpine_grass, true), 0.6 * density_at_edge(pasture, false));
@@ -98,17 +96,15 @@ TEST(ForestCover, TracksRunDownTheFallLine) {
   GuidanceBuffers g = wood(600, 200);
   const glm::vec2 fall(0.6F, 0.8F);
   for (auto& d : g.fall_line) d = fall;
-  for (int y = 0; y < 30; ++y)
-    for (int x = 0; x < 600; ++x) g.land_cover(x, y) = rock;
+  for (const auto [x, y] : test::cells(600, 30)) g.land_cover(x, y) = rock;
   for (float& slope : g.slope_deg) slope = 40.0F;
   const ForestCover cover = make_forest_cover(g, {g}, {}, {0, 0});
   double along = 0.0;
   double across = 0.0;
-  for (int y = 32; y < 60; ++y)
-    for (int x = 60; x < 540; ++x) {
-      along += std::abs(cover.glade(x + 6, y + 8) - cover.glade(x, y));
-      across += std::abs(cover.glade(x - 8, y + 6) - cover.glade(x, y));
-    }
+  for (const auto [x, y] : test::cells({60, 32, 540, 60})) {
+    along += std::abs(cover.glade(x + 6, y + 8) - cover.glade(x, y));
+    across += std::abs(cover.glade(x - 8, y + 6) - cover.glade(x, y));
+  }
   EXPECT_GT(across, 200.0) << "there are tracks";
   EXPECT_LT(along, 0.65 * across);
 }
@@ -149,10 +145,9 @@ TEST(ForestCover, KeepsItsSizeOnTheSheet) {
   const ForestCover small = make_forest_cover(few, {few}, {}, {0, 0});
   const ForestCover large = make_forest_cover(many, {many}, {.pixels_per_unit = 4.0}, {0, 0});
   double difference = 0.0;
-  for (int y = 10; y < 140; ++y)
-    for (int x = 10; x < 190; ++x)
-      difference +=
-          std::abs(small.density(x, y) - large.density(4 * x + 2, 4 * y + 2)) / (180.0 * 130.0);
+  for (const auto [x, y] : test::cells({10, 10, 190, 140}))
+    difference +=
+        std::abs(small.density(x, y) - large.density(4 * x + 2, 4 * y + 2)) / (180.0 * 130.0);
   EXPECT_LT(difference, 0.05);
 }
 
@@ -169,8 +164,7 @@ TEST(ForestCover, OtherGroundHasNone) {
 TEST(ForestCover, PartEqualsWhole) {
   GuidanceBuffers g = wood(360, 400);
   for (auto& d : g.fall_line) d = glm::vec2(0.28F, 0.96F);
-  for (int y = 0; y < 150; ++y)
-    for (int x = 0; x < 360; ++x) g.land_cover(x, y) = rock;
+  for (const auto [x, y] : test::cells(360, 150)) g.land_cover(x, y) = rock;
   for (float& slope : g.slope_deg) slope = 40.0F;
   const ForestCover whole = make_forest_cover(g, {g}, {}, {0, 0});
   const PixelRect kept{130, 165, 230, 240};
@@ -180,11 +174,10 @@ TEST(ForestCover, PartEqualsWhole) {
   const GuidanceBuffers held = test::cut(g, part);
   const ForestCover cover =
       make_forest_cover(held, {held, 1, {part.x0, part.y0}}, {}, {part.x0, part.y0});
-  for (int y = kept.y0; y < kept.y1; ++y)
-    for (int x = kept.x0; x < kept.x1; ++x) {
-      ASSERT_EQ(cover.density(x - part.x0, y - part.y0), whole.density(x, y));
-      ASSERT_EQ(cover.glade(x - part.x0, y - part.y0), whole.glade(x, y));
-    }
+  for (const auto [x, y] : test::cells(kept)) {
+    ASSERT_EQ(cover.density(x - part.x0, y - part.y0), whole.density(x, y));
+    ASSERT_EQ(cover.glade(x - part.x0, y - part.y0), whole.glade(x, y));
+  }
 }
 
 }  // namespace

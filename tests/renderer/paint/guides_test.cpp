@@ -1,6 +1,5 @@
 #include "renderer/paint/guides.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "base/random.h"
 #include "renderer/scene/scene.h"
 #include "renderer/scene/scene_schema.h"
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "texture/synthesis/synthesize.h"
 
@@ -100,14 +100,12 @@ TEST(Guides, AreQuantizedAsDocumented) {
 double copied_from_the_brook(float flow, double weight) {
   GuidanceBuffers g = make_slope(96, 64, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
   g.flow = Grid<float>(96, 64, 3.0F);
-  for (int y = 0; y < 64; ++y)
-    for (int x = 48; x < 96; ++x) g.flow(x, y) = 8.0F;
+  for (const auto [x, y] : test::cells({48, 0, 96, 64})) g.flow(x, y) = 8.0F;
   Exemplar exemplar{"meadow", Grid<Rgb8>(96, 64), make_guide_stack(g, g.land_cover)};
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 96; ++x) {
-      const auto grey = static_cast<std::uint8_t>(100.0 + 50.0 * random_uniform(9, x, y));
-      exemplar.picture(x, y) = {grey, grey, grey};
-    }
+  for (const auto [x, y] : test::cells(96, 64)) {
+    const auto grey = static_cast<std::uint8_t>(100.0 + 50.0 * random_uniform(9, x, y));
+    exemplar.picture(x, y) = {grey, grey, grey};
+  }
   GuidanceBuffers target = make_slope(48, 48, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
   target.flow = Grid<float>(48, 48, flow);
   SynthesisParameters parameters;
@@ -134,14 +132,13 @@ TEST(Guides, FlowChoosesAmongTexelsByTheWaterTheySee) {
 TEST(Guides, FallLinesChooseStrokesOfTheirDirection) {
   const auto copied_from_the_right = [](glm::vec2 falls, double weight) {
     GuidanceBuffers g = make_slope(96, 64, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 40.0F);
-    for (int y = 0; y < 64; ++y)
-      for (int x = 0; x < 96; ++x) g.fall_line(x, y) = glm::vec2(x < 48 ? -1.0F : 1.0F, 0.0F);
+    for (const auto [x, y] : test::cells(96, 64))
+      g.fall_line(x, y) = glm::vec2(x < 48 ? -1.0F : 1.0F, 0.0F);
     Exemplar exemplar{"face", Grid<Rgb8>(96, 64), make_guide_stack(g, g.land_cover)};
-    for (int y = 0; y < 64; ++y)
-      for (int x = 0; x < 96; ++x) {
-        const auto grey = static_cast<std::uint8_t>(100.0 + 50.0 * random_uniform(9, x, y));
-        exemplar.picture(x, y) = {grey, grey, grey};
-      }
+    for (const auto [x, y] : test::cells(96, 64)) {
+      const auto grey = static_cast<std::uint8_t>(100.0 + 50.0 * random_uniform(9, x, y));
+      exemplar.picture(x, y) = {grey, grey, grey};
+    }
     GuidanceBuffers target = make_slope(48, 48, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 40.0F);
     target.fall_line = Grid<glm::vec2>(48, 48, falls);
     SynthesisParameters parameters;

@@ -4,12 +4,12 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <memory>
 #include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "tests/renderer/paint/hills_print.h"
 
@@ -60,14 +60,13 @@ TEST(Tone, ShadowTakesItsShareOfTheSun) {
 // east, the rest under one in the west.
 GuidanceBuffers make_cone(int size) {
   GuidanceBuffers g = make_slope(size, size, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 30.0F);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      const glm::vec2 out = glm::vec2(static_cast<float>(x), static_cast<float>(-y)) +
-                            glm::vec2(0.5F - 0.5F * size, 0.5F * size - 0.5F);
-      g.position_m(x, y) = glm::vec3(10.0F * out, 1200.0F);
-      g.normal(x, y) = g.normal_detail(x, y) = g.normal_smooth(x, y) =
-          glm::normalize(glm::vec3(glm::normalize(out), 1.0F));
-    }
+  for (const auto [x, y] : test::cells(size, size)) {
+    const glm::vec2 out = glm::vec2(static_cast<float>(x), static_cast<float>(-y)) +
+                          glm::vec2(0.5F - 0.5F * size, 0.5F * size - 0.5F);
+    g.position_m(x, y) = glm::vec3(10.0F * out, 1200.0F);
+    g.normal(x, y) = g.normal_detail(x, y) = g.normal_smooth(x, y) =
+        glm::normalize(glm::vec3(glm::normalize(out), 1.0F));
+  }
   return g;
 }
 
@@ -91,20 +90,19 @@ TEST(Tone, AConeIsLitFromTwoSides) {
   const Grid<float> tone = tone_of(cone, both);
   const Grid<float> left = tone_of(cone, from_west);
   const Grid<float> right = tone_of(cone, from_east);
-  for (int y = 0; y < 96; ++y)
-    for (int x = 0; x < 96; ++x) {
-      const float at = cone.position_m(x, y).x;
-      if (at < -100.0F) {
-        ASSERT_EQ(tone(x, y), left(x, y));
-      } else if (at > 100.0F) {
-        ASSERT_NEAR(tone(x, y), right(x, y), 1e-5F);
-      } else if (std::abs(at) < 10.0F && y % 24 == 0) {
-        // Half of each: the sum of both suns, which is higher and in the north.
-        ToneParameters centre = from_west;
-        centre.sun_direction = both.light_field->at({static_cast<double>(at), 0.0}).sun;
-        EXPECT_NEAR(tone(x, y), tone_of(cone, centre)(x, y), 1e-5F);
-      }
+  for (const auto [x, y] : test::cells(96, 96)) {
+    const float at = cone.position_m(x, y).x;
+    if (at < -100.0F) {
+      ASSERT_EQ(tone(x, y), left(x, y));
+    } else if (at > 100.0F) {
+      ASSERT_NEAR(tone(x, y), right(x, y), 1e-5F);
+    } else if (std::abs(at) < 10.0F && y % 24 == 0) {
+      // Half of each: the sum of both suns, which is higher and in the north.
+      ToneParameters centre = from_west;
+      centre.sun_direction = both.light_field->at({static_cast<double>(at), 0.0}).sun;
+      EXPECT_NEAR(tone(x, y), tone_of(cone, centre)(x, y), 1e-5F);
     }
+  }
   EXPECT_GT(tone(10, 48), 0.7F);
   EXPECT_GT(tone(85, 48), 0.7F);
   EXPECT_LT(right(10, 48), 0.4F);
@@ -158,15 +156,13 @@ TEST(Tone, OutcropsInTheWoodAreCalmerThanWalls) {
   // A slope of rock, lit in its left half and in shadow in its right one, and the same with forest
   // all around a small patch of each.
   GuidanceBuffers wall = make_slope(160, 80, LandCoverClass::rock, sun_side_normal, 45.0F);
-  for (int y = 0; y < 80; ++y)
-    for (int x = 80; x < 160; ++x) wall.shadow(x, y) = 0.0F;
+  for (const auto [x, y] : test::cells({80, 0, 160, 80})) wall.shadow(x, y) = 0.0F;
   GuidanceBuffers outcrops = wall;
   const auto in_patch = [](int x, int y) {
     return std::abs(y - 40) < 6 && (std::abs(x - 40) < 6 || std::abs(x - 120) < 6);
   };
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 160; ++x)
-      if (!in_patch(x, y)) outcrops.land_cover(x, y) = LandCoverClass::forest;
+  for (const auto [x, y] : test::cells(160, 80))
+    if (!in_patch(x, y)) outcrops.land_cover(x, y) = LandCoverClass::forest;
   ToneParameters p;
   p.ribs = 0.0;
   const auto patch = [&](const Grid<float>& tone, int centre) {
@@ -222,10 +218,9 @@ TEST(Tone, WallsInShadowKeepTheirForms) {
 // white or one dark tone.
 TEST(Tone, SnowHasForms) {
   GuidanceBuffers field = make_slope(160, 120, LandCoverClass::snow, {0.0F, 0.0F, 1.0F}, 8.0F);
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x)
-      field.position_m(x, y) =
-          glm::vec3(15.0F * static_cast<float>(x), -15.0F * static_cast<float>(y), 1200.0F);
+  for (const auto [x, y] : test::cells(160, 120))
+    field.position_m(x, y) =
+        glm::vec3(15.0F * static_cast<float>(x), -15.0F * static_cast<float>(y), 1200.0F);
   const auto spread = [&](LandCoverClass id, float shadow, bool winter) {
     for (LandCoverClass& each : field.land_cover) each = id;
     for (float& s : field.shadow) s = shadow;
@@ -329,9 +324,8 @@ TEST(Tone, PartEqualsWhole) {
     const PixelRect part = with_margin(kept, tone_margin_px(p), width, height);
     ASSERT_GT(part.x0, 0);
     const Grid<float> tone = make_tone(cut(hills, part), p, {part.x0, part.y0}, silent_progress());
-    for (int y = kept.y0; y < kept.y1; ++y)
-      for (int x = kept.x0; x < kept.x1; ++x)
-        ASSERT_EQ(tone(x - part.x0, y - part.y0), whole(x, y)) << x << " " << y << " ppu " << ppu;
+    for (const auto [x, y] : test::cells(kept))
+      ASSERT_EQ(tone(x - part.x0, y - part.y0), whole(x, y)) << x << " " << y << " ppu " << ppu;
   }
 }
 
@@ -362,10 +356,9 @@ TEST(Tone, OfAPrintLooksAroundInItsWideView) {
 GuidanceBuffers make_far_slope(float depth_m) {
   GuidanceBuffers g = make_slope(600, 200, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 20.0F);
   for (float& d : g.depth_m) d = depth_m;
-  for (int y = 0; y < g.height(); ++y)
-    for (int x = 0; x < g.width(); ++x)
-      g.normal(x, y) = g.normal_detail(x, y) =
-          glm::normalize(glm::vec3(x % 2 == 0 ? -0.25F : 0.25F, 0.0F, 1.0F));
+  for (const auto [x, y] : test::cells(g))
+    g.normal(x, y) = g.normal_detail(x, y) =
+        glm::normalize(glm::vec3(x % 2 == 0 ? -0.25F : 0.25F, 0.0F, 1.0F));
   return g;
 }
 
@@ -409,9 +402,8 @@ TEST(Tone, PartOfAFarRangeEqualsWhole) {
   const PixelRect rect{300, 100, 340, 130};
   const PixelRect held = with_margin(rect, margin, 600, 200);
   const Grid<float> part = make_tone(cut(slope, held), {}, {held.x0, held.y0}, silent_progress());
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x)
-      ASSERT_EQ(part(x - held.x0, y - held.y0), whole(x, y)) << x << ' ' << y;
+  for (const auto [x, y] : test::cells(rect))
+    ASSERT_EQ(part(x - held.x0, y - held.y0), whole(x, y)) << x << ' ' << y;
 }
 
 TEST(Tone, SameBitsForAnyThreads) {
@@ -437,15 +429,14 @@ TEST(Tone, LooksAlikeAtAllResolutions) {
   double difference = 0.0, spread = 0.0;
   int count = 0;
   const double centre = mean(at_one);
-  for (int y = 0; y < 150; ++y)
-    for (int x = 0; x < 200; ++x) {
-      if (small.is_sky(small.depth_m.index(x, y))) continue;
-      const double fine = 0.25 * (at_two(2 * x, 2 * y) + at_two(2 * x + 1, 2 * y) +
-                                  at_two(2 * x, 2 * y + 1) + at_two(2 * x + 1, 2 * y + 1));
-      difference += std::abs(fine - at_one(x, y));
-      spread += std::abs(at_one(x, y) - centre);
-      ++count;
-    }
+  for (const auto [x, y] : test::cells(200, 150)) {
+    if (small.is_sky(small.depth_m.index(x, y))) continue;
+    const double fine = 0.25 * (at_two(2 * x, 2 * y) + at_two(2 * x + 1, 2 * y) +
+                                at_two(2 * x, 2 * y + 1) + at_two(2 * x + 1, 2 * y + 1));
+    difference += std::abs(fine - at_one(x, y));
+    spread += std::abs(at_one(x, y) - centre);
+    ++count;
+  }
   EXPECT_LT(difference / count, 0.25 * spread / count);
 }
 

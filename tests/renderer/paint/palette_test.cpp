@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <glm/common.hpp>
 #include <string>
 
 #include "base/error.h"

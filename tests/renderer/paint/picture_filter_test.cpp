@@ -8,6 +8,7 @@
 
 #include "base/math_exact.h"
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {
@@ -22,12 +23,11 @@ TEST(PictureFilter, GaussianHasItsDeviationAndPlace) {
     spot(size / 2, size / 2) = 1.0F;
     const Grid<float> blurred = blur_in_picture(spot, sigma, {7, 3});
     double sum = 0.0, moment = 0.0, square = 0.0;
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) {
-        sum += blurred(x, y);
-        moment += blurred(x, y) * (x - size / 2);
-        square += blurred(x, y) * (x - size / 2) * (x - size / 2);
-      }
+    for (const auto [x, y] : test::cells(size, size)) {
+      sum += blurred(x, y);
+      moment += blurred(x, y) * (x - size / 2);
+      square += blurred(x, y) * (x - size / 2) * (x - size / 2);
+    }
     EXPECT_NEAR(sum, 1.0, 1e-3);
     EXPECT_NEAR(moment, 0.0, 0.1 * sigma);
     EXPECT_NEAR(std::sqrt(square), sigma, 0.04 * sigma) << sigma;
@@ -37,11 +37,10 @@ TEST(PictureFilter, GaussianHasItsDeviationAndPlace) {
 TEST(PictureFilter, BlurOnASurfaceKeepsSurfacesApart) {
   Grid<float> values(40, 20, 0.0F);
   Grid<float> depth(40, 20, 10000.0F);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 20; x < 40; ++x) {
-      values(x, y) = 1.0F;
-      depth(x, y) = 20000.0F;
-    }
+  for (const auto [x, y] : test::cells({20, 0, 40, 20})) {
+    values(x, y) = 1.0F;
+    depth(x, y) = 20000.0F;
+  }
   EXPECT_EQ(blur_on_surface(values, depth, 3.0)(19, 10), 0.0F);
   EXPECT_EQ(blur_on_surface(values, depth, 3.0)(20, 10), 1.0F);
   EXPECT_NEAR(blur_in_picture(values, 3.0, {0, 0})(19, 10), 0.43F, 0.05F);
@@ -56,26 +55,24 @@ Grid<float> blur_plainly(const Grid<float>& values, const Grid<float>& depth_m, 
         static_cast<float>(exact::exp(-0.5 * k * k / (sigma / stride * (sigma / stride)))));
   const auto pass = [&](const Grid<float>& in, int step_x, int step_y) {
     Grid<float> out(in.width(), in.height());
-    for (int y = 0; y < in.height(); ++y)
-      for (int x = 0; x < in.width(); ++x) {
-        float sum = kernel[0] * in(x, y);
-        float total = kernel[0];
-        for (int k = 1; k < static_cast<int>(kernel.size()); ++k)
-          for (const int way : {-k, k}) {
-            const int u = x + way * step_x;
-            const int v = y + way * step_y;
-            if (!in.contains(u, v) || !same_surface(depth_m(x, y), depth_m(u, v))) continue;
-            sum += kernel[static_cast<std::size_t>(k)] * in(u, v);
-            total += kernel[static_cast<std::size_t>(k)];
-          }
-        out(x, y) = sum / total;
-      }
+    for (const auto [x, y] : test::cells(in)) {
+      float sum = kernel[0] * in(x, y);
+      float total = kernel[0];
+      for (int k = 1; k < static_cast<int>(kernel.size()); ++k)
+        for (const int way : {-k, k}) {
+          const int u = x + way * step_x;
+          const int v = y + way * step_y;
+          if (!in.contains(u, v) || !same_surface(depth_m(x, y), depth_m(u, v))) continue;
+          sum += kernel[static_cast<std::size_t>(k)] * in(u, v);
+          total += kernel[static_cast<std::size_t>(k)];
+        }
+      out(x, y) = sum / total;
+    }
     return out;
   };
   Grid<float> blurred = pass(pass(values, stride, 0), 0, stride);
-  for (int y = 0; y < values.height(); ++y)
-    for (int x = 0; x < values.width(); ++x)
-      if (x < wanted.x0 || y < wanted.y0 || x >= wanted.x1 || y >= wanted.y1) blurred(x, y) = 0.0F;
+  for (const auto [x, y] : test::cells(values))
+    if (x < wanted.x0 || y < wanted.y0 || x >= wanted.x1 || y >= wanted.y1) blurred(x, y) = 0.0F;
   return blurred;
 }
 
@@ -92,13 +89,12 @@ TEST(PictureFilter, BlurOnASurfaceIsThatOfOnePixelAfterTheOther) {
         Case{9, 7, 5.0, 1, {0, 0, 9, 7}}, Case{300, 4, 40.0, 5, {20, 1, 280, 4}}}) {
     Grid<float> values(c.width, c.height);
     Grid<float> depth(c.width, c.height);
-    for (int y = 0; y < c.height; ++y)
-      for (int x = 0; x < c.width; ++x) {
-        values(x, y) = static_cast<float>(gaussian_noise(2, x, y, 1.5));
-        depth(x, y) = gaussian_noise(3, x, y, 6.0) > 1.0
-                          ? sky_depth_m
-                          : 10000.F + 200.F * static_cast<float>(gaussian_noise(4, x, y, 4.0));
-      }
+    for (const auto [x, y] : test::cells(c.width, c.height)) {
+      values(x, y) = static_cast<float>(gaussian_noise(2, x, y, 1.5));
+      depth(x, y) = gaussian_noise(3, x, y, 6.0) > 1.0
+                        ? sky_depth_m
+                        : 10000.F + 200.F * static_cast<float>(gaussian_noise(4, x, y, 4.0));
+    }
     EXPECT_EQ(blur_on_surface(values, depth, c.sigma, c.wanted),
               blur_plainly(values, depth, c.sigma, c.stride, c.wanted))
         << c.sigma;
@@ -116,11 +112,10 @@ TEST(PictureFilter, SurfacesPartAtThreeHundredthsOfTheNearerDistance) {
 TEST(PictureFilter, TheSkyTakesSkyOnly) {
   Grid<float> values(20, 20, 0.F);
   Grid<float> depth(20, 20, 10000.F);
-  for (int y = 0; y < 10; ++y)
-    for (int x = 0; x < 20; ++x) {
-      values(x, y) = 5.F;
-      depth(x, y) = sky_depth_m;
-    }
+  for (const auto [x, y] : test::cells(20, 10)) {
+    values(x, y) = 5.F;
+    depth(x, y) = sky_depth_m;
+  }
   const Grid<float> blurred = blur_on_surface(values, depth, 2.0);
   for (int y = 0; y < 20; ++y) EXPECT_NEAR(blurred(7, y), y < 10 ? 5.F : 0.F, 1e-5F) << y;
 }
@@ -131,8 +126,8 @@ TEST(PictureFilter, PartWithItsReachEqualsWhole) {
     const int reach = blur_reach_px(sigma);
     const int size = 2 * reach + 120;
     Grid<float> whole(size, size);
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) whole(x, y) = static_cast<float>(gaussian_noise(2, x, y, 5.0));
+    for (const auto [x, y] : test::cells(size, size))
+      whole(x, y) = static_cast<float>(gaussian_noise(2, x, y, 5.0));
     const PixelRect part{reach + 37, reach + 51, reach + 70, reach + 80};
     const PixelRect wide = test::with_margin(part, reach, size, size);
     const Grid<float> cut = blur_in_picture(test::cut(whole, wide), sigma, {wide.x0, wide.y0});
@@ -150,20 +145,17 @@ constexpr int factor = 4;
 
 TEST(PictureFilter, ARampIsEnlargedToARamp) {
   const GuidanceBuffers g = level_view(20, 16);
-  Grid<float> values(20, 16);
-  for (int y = 0; y < 16; ++y)
-    for (int x = 0; x < 20; ++x) values(x, y) = static_cast<float>(3 * x - 2 * y);
+  const Grid<float> values = test::grid_of(20, 16, [&](int x, int y) { return 3 * x - 2 * y; });
   const WideView wide{g, factor, {100, 50}};
   const PixelRect rect{402, 203, 470, 258};  // inside the centres of the outer pixels
   const Grid<float> large = enlarge(wide, values, rect);
-  for (int y = 0; y < large.height(); ++y)
-    for (int x = 0; x < large.width(); ++x) {
-      const double u = (rect.x0 + x + 0.5) / factor - 0.5 - 100.0;
-      const double v = (rect.y0 + y + 0.5) / factor - 0.5 - 50.0;
-      ASSERT_NEAR(large(x, y), 3.0 * u - 2.0 * v, 1e-4);
-      ASSERT_NEAR(value_on_surface(wide, values, rect.x0 + x, rect.y0 + y, 20000.0F),
-                  3.0 * u - 2.0 * v, 1e-4);
-    }
+  for (const auto [x, y] : test::cells(large)) {
+    const double u = (rect.x0 + x + 0.5) / factor - 0.5 - 100.0;
+    const double v = (rect.y0 + y + 0.5) / factor - 0.5 - 50.0;
+    ASSERT_NEAR(large(x, y), 3.0 * u - 2.0 * v, 1e-4);
+    ASSERT_NEAR(value_on_surface(wide, values, rect.x0 + x, rect.y0 + y, 20000.0F),
+                3.0 * u - 2.0 * v, 1e-4);
+  }
 }
 
 TEST(PictureFilter, OfFactorOneItIsThePixelsThemselves) {
@@ -171,23 +163,21 @@ TEST(PictureFilter, OfFactorOneItIsThePixelsThemselves) {
   const WideView wide{g, 1, {7, 9}};
   const PixelRect rect{11, 20, 40, 44};
   const Grid<float> same = enlarge(wide, g.slope_deg, rect);
-  for (int y = 0; y < same.height(); ++y)
-    for (int x = 0; x < same.width(); ++x) {
-      ASSERT_EQ(same(x, y), g.slope_deg(4 + x, 11 + y));
-      ASSERT_EQ(value_on_surface(wide, g.slope_deg, 11 + x, 20 + y, g.depth_m(4 + x, 11 + y)),
-                g.slope_deg(4 + x, 11 + y));
-    }
+  for (const auto [x, y] : test::cells(same)) {
+    ASSERT_EQ(same(x, y), g.slope_deg(4 + x, 11 + y));
+    ASSERT_EQ(value_on_surface(wide, g.slope_deg, 11 + x, 20 + y, g.depth_m(4 + x, 11 + y)),
+              g.slope_deg(4 + x, 11 + y));
+  }
   EXPECT_EQ(wide_rect(rect, 1), rect);
 }
 
 TEST(PictureFilter, NothingIsMixedAcrossASilhouette) {
   GuidanceBuffers g = level_view(8, 8);
   Grid<float> values(8, 8, 1.0F);
-  for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 8; ++x) {
-      g.depth_m(x, y) = 50000.0F;
-      values(x, y) = 0.0F;
-    }
+  for (const auto [x, y] : test::cells(8, 4)) {
+    g.depth_m(x, y) = 50000.0F;
+    values(x, y) = 0.0F;
+  }
   const WideView wide{g, factor, {0, 0}};
   for (int y = 14; y < 18; ++y) {  // between the centres of the two rows
     EXPECT_EQ(value_on_surface(wide, values, 15, y, 20000.0F), 1.0F) << y;
@@ -203,11 +193,10 @@ TEST(PictureFilter, WhatRoseHasTheValuesOfItsSurfaceBeneath) {
   constexpr int ridge = surface_look_rows + 6;  // the first row of the near surface
   GuidanceBuffers g = level_view(8, ridge + 4);
   Grid<float> values(8, ridge + 4);
-  for (int y = 0; y < ridge + 4; ++y)
-    for (int x = 0; x < 8; ++x) {
-      if (y < ridge) g.depth_m(x, y) = 50000.0F;
-      values(x, y) = y < ridge ? -100.0F : static_cast<float>(x + 10 * (y - ridge));
-    }
+  for (const auto [x, y] : test::cells(8, ridge + 4)) {
+    if (y < ridge) g.depth_m(x, y) = 50000.0F;
+    values(x, y) = y < ridge ? -100.0F : static_cast<float>(x + 10 * (y - ridge));
+  }
   const WideView wide{g, factor, {0, 0}};
   for (int rows = 1; rows <= surface_look_rows; ++rows)
     for (int x = 2; x < 30; ++x)

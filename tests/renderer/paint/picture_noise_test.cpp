@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {
@@ -13,13 +14,12 @@ namespace {
 TEST(PictureNoise, EqualsTheNoiseOfBase) {
   const Grid<float> grid = make_image_noise(9, {-13, 250}, 70, 40, 1.7, 3.2, 7.0);
   GroundNoise ground(9, 210.0);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 70; ++x) {
-      EXPECT_NEAR(grid(x, y),
-                  gaussian_noise(9, (x - 13 + 0.5) / 1.7, (y + 250 + 0.5) / 1.7, 3.2, 7.0), 2e-6);
-      const double e = 31.0 * x - 700.0, n = -57.0 * y;
-      EXPECT_NEAR(ground(e, n), gaussian_noise(9, e, n, 210.0), 2e-6);
-    }
+  for (const auto [x, y] : test::cells(70, 40)) {
+    EXPECT_NEAR(grid(x, y),
+                gaussian_noise(9, (x - 13 + 0.5) / 1.7, (y + 250 + 0.5) / 1.7, 3.2, 7.0), 2e-6);
+    const double e = 31.0 * x - 700.0, n = -57.0 * y;
+    EXPECT_NEAR(ground(e, n), gaussian_noise(9, e, n, 210.0), 2e-6);
+  }
 }
 
 TEST(PictureNoise, PartEqualsWhole) {

@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {
@@ -40,8 +41,7 @@ TEST(Ribs, AreSumsAlongStreamlines) {
   constexpr int factor = 3;
   constexpr double ppu = 6.0;
   GuidanceBuffers g = test::make_hills(150, 100, ppu);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 60; ++x) g.fall_line(x, y) = {0.0F, 0.0F};
+  for (const auto [x, y] : test::cells(60, 40)) g.fall_line(x, y) = {0.0F, 0.0F};
   const glm::ivec2 origin{300, 600};
   const GuidanceBuffers seen = thin_out({g, 1, origin}, factor);
   const WideView wide{seen, factor, origin / factor};
@@ -86,13 +86,11 @@ TEST(Ribs, AreSumsAlongStreamlines) {
 
 TEST(Ribs, DoNotCrossASilhouette) {
   GuidanceBuffers g = test::make_slope(60, 120, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 60; ++x) g.depth_m(x, y) = 50000.0F;
+  for (const auto [x, y] : test::cells(60, 60)) g.depth_m(x, y) = 50000.0F;
   const Grid<std::uint8_t> all(60, 120, 1);
   const Grid<float> before = integrate_along_fall_line(g, {g}, all, 3, {0, 0}, 1.0)[0];
   // Turning the far range's fall line must not change the near one.
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 60; ++x) g.fall_line(x, y) = {0.8F, 0.6F};
+  for (const auto [x, y] : test::cells(60, 60)) g.fall_line(x, y) = {0.8F, 0.6F};
   const Grid<float> after = integrate_along_fall_line(g, {g}, all, 3, {0, 0}, 1.0)[0];
   for (int x = 0; x < 60; ++x) EXPECT_EQ(after(x, 61), before(x, 61));
   EXPECT_NE(after(30, 50), before(30, 50));
@@ -135,13 +133,11 @@ TEST(Ribs, StandOnlyWhereTheyAreWanted) {
   const GuidanceBuffers g =
       test::make_slope(80, 60, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
   Grid<std::uint8_t> left_half(80, 60, 0);
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 40; ++x) left_half(x, y) = 1;
+  for (const auto [x, y] : test::cells(40, 60)) left_half(x, y) = 1;
   const Grid<float> some = make_ribs(g, {g}, left_half, {}, {0, 0});
   const Grid<float> everywhere = make_ribs(g, {g}, Grid<std::uint8_t>(80, 60, 1), {}, {0, 0});
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 80; ++x)
-      ASSERT_EQ(some(x, y), x < 40 ? everywhere(x, y) : 0.F) << x << ' ' << y;
+  for (const auto [x, y] : test::cells(80, 60))
+    ASSERT_EQ(some(x, y), x < 40 ? everywhere(x, y) : 0.F) << x << ' ' << y;
 }
 
 }  // namespace

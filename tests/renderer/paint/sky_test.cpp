@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {
@@ -132,21 +133,19 @@ TEST(Sky, VeilsLieLevel) {
     const std::vector<Cloud> clouds = make_clouds(p);
     const Grid<glm::vec3> sky = make_sky(Grid<float>(2400, 198, sky_depth), palette, p, {0, 0});
     double xx = 0.0, xy = 0.0, yy = 0.0;
-    for (int y = 4; y < 190; y += 2)
-      for (int x = 4; x < 2396; x += 2) {
-        bool clear = true;
-        for (const Cloud& c : clouds)
-          clear =
-              clear && (x < c.from.x - 8 || x > c.to.x + 8 || y < c.from.y - 8 || y > c.to.y + 8);
-        if (!clear) continue;
-        // A remainder of the vertical gradient, which is level by nature, would hide the slope of
-        // veils.
-        const double gx = sky(x + 4, y).r - sky(x - 4, y).r;
-        const double gy = sky(x, y + 4).r - sky(x, y - 4).r -
-                          (sky_gradient(palette, (y + 4.5) / 198.0).r -
-                           sky_gradient(palette, (y - 3.5) / 198.0).r);
-        xx += gx * gx, xy += gx * gy, yy += gy * gy;
-      }
+    for (const auto [x, y] : test::cells({4, 4, 2396, 190}, 2)) {
+      bool clear = true;
+      for (const Cloud& c : clouds)
+        clear = clear && (x < c.from.x - 8 || x > c.to.x + 8 || y < c.from.y - 8 || y > c.to.y + 8);
+      if (!clear) continue;
+      // A remainder of the vertical gradient, which is level by nature, would hide the slope of
+      // veils.
+      const double gx = sky(x + 4, y).r - sky(x - 4, y).r;
+      const double gy =
+          sky(x, y + 4).r - sky(x, y - 4).r -
+          (sky_gradient(palette, (y + 4.5) / 198.0).r - sky_gradient(palette, (y - 3.5) / 198.0).r);
+      xx += gx * gx, xy += gx * gy, yy += gy * gy;
+    }
     ASSERT_GT(yy, 0.0);
     // The axis of least change, degrees from level, and how closely the veils follow it.
     EXPECT_LT(std::abs(0.5 * std::atan2(2.0 * xy, yy - xx)) * 57.3, 3.0) << seed;
@@ -167,14 +166,13 @@ TEST(Sky, StreaksAllLeanOneWay) {
     EXPECT_TRUE(from_px < -100.0 || from_px > 2500.0) << from_px;
     const Grid<glm::vec3> sky = make_sky(Grid<float>(2400, 198, sky_depth), palette, p, {0, 0});
     std::array<double, 3> thirds{};
-    for (int y = 10; y < 150; y += 2)
-      for (int x = 8; x < 2392; x += 2) {
-        const double gx = sky(x + 3, y).r - sky(x - 3, y).r;
-        const double gy = sky(x, y + 3).r - sky(x, y - 3).r -
-                          (sky_gradient(palette, (y + 3.5) / 198.0).r -
-                           sky_gradient(palette, (y - 2.5) / 198.0).r);
-        thirds[static_cast<std::size_t>(x / 800)] += gx * gy;
-      }
+    for (const auto [x, y] : test::cells({8, 10, 2392, 150}, 2)) {
+      const double gx = sky(x + 3, y).r - sky(x - 3, y).r;
+      const double gy =
+          sky(x, y + 3).r - sky(x, y - 3).r -
+          (sky_gradient(palette, (y + 3.5) / 198.0).r - sky_gradient(palette, (y - 2.5) / 198.0).r);
+      thirds[static_cast<std::size_t>(x / 800)] += gx * gy;
+    }
     // Along a streak nothing changes: where it leans to the right as it rises, light increases to
     // the right and downwards alike.
     for (const double third : thirds) leaning += (third > 0.0) == (from_px < 0.0) ? 1.0 : 0.0;
@@ -228,10 +226,9 @@ TEST(Sky, SkylineByRaysIsWhereTheCrestProjects) {
   // A level crest 400 m high, 6 km north of the eye and at right angles to the view.
   DeformedSurface surface;
   surface.vertices_m = Grid<glm::vec3>(200, 90);
-  for (int y = 0; y < 90; ++y)
-    for (int x = 0; x < 200; ++x)
-      surface.vertices_m(x, y) = {100.0F * x - 10000.0F, 7000.0F - 100.0F * y,
-                                  y == 10 ? 400.0F : 0.0F};
+  for (const auto [x, y] : test::cells(200, 90))
+    surface.vertices_m(x, y) = {100.0F * x - 10000.0F, 7000.0F - 100.0F * y,
+                                y == 10 ? 400.0F : 0.0F};
   surface.origin = {500000.0, 5000000.0, 0.0};
   const Tracer tracer(surface);
   CameraParameters parameters;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {
@@ -88,8 +89,7 @@ TEST(RangeEdges, MistLiesOnTheFarSideAndShadeOnTheNear) {
 
 TEST(RangeEdges, AccentsStandOnTheNearerSideAndNeverOnTheSkyline) {
   GuidanceBuffers g = make_slope(9, 20, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
-  for (int y = 0; y < 10; ++y)
-    for (int x = 0; x < 9; ++x) g.depth_m(x, y) = 40000.0F;
+  for (const auto [x, y] : test::cells(9, 10)) g.depth_m(x, y) = 40000.0F;
   const Grid<float> logs = log_depths(g, 1);
   EXPECT_EQ(accent_at(g, logs, 4, 10, 1), 0.8F);
   EXPECT_EQ(accent_at(g, logs, 4, 9, 1), 0.0F);

@@ -14,6 +14,7 @@
 #include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/scenes.h"
 #include "tests/shared_cache.h"
 
@@ -192,14 +193,13 @@ TEST(NamedPicture, SwatchesAreTypicalPiecesOfThePicture) {
                            .factor = 4,
                            .classes = Grid<LandCoverClass>(200, 100, LandCoverClass::forest),
                            .colours = Grid<glm::vec3>(200, 100, glm::vec3(.2F, .4F, .2F))};
-  for (int y = 0; y < 100; ++y)
-    for (int x = 0; x < 200; ++x) {
-      if (x < 40) overview.colours(x, y) = glm::vec3(.8F);
-      if (x >= 100 && y >= 50 && y < 54) {
-        overview.classes(x, y) = LandCoverClass::rock;
-        overview.colours(x, y) = glm::vec3(.6F, .6F, .65F);
-      }
+  for (const auto [x, y] : test::cells(200, 100)) {
+    if (x < 40) overview.colours(x, y) = glm::vec3(.8F);
+    if (x >= 100 && y >= 50 && y < 54) {
+      overview.classes(x, y) = LandCoverClass::rock;
+      overview.colours(x, y) = glm::vec3(.6F, .6F, .65F);
     }
+  }
   const std::vector<LegendEntry> legend = find_legend(overview, {48.0, 28.0});
   ASSERT_EQ(legend.size(), 2U);
   EXPECT_EQ(legend[0].name, "forest");

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "tests/shared_cache.h"
@@ -140,12 +141,11 @@ TEST_F(Pipeline, PanoramaShowsSkyOverTerrainAndIsPainted) {
 TEST_F(Pipeline, ColoursOfAPaintingReachTheBasePicture) {
   Grid<glm::vec3> red(88, 40);
   std::string classes;
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 88; ++x) {
-      const float light = static_cast<float>(x % 8) / 8.F;
-      red(x, y) = glm::vec3(0.3F + 0.6F * light, 0.1F + 0.2F * light, 0.05F);
-      classes += static_cast<char>(x / 8 + 1);
-    }
+  for (const auto [x, y] : test::cells(88, 40)) {
+    const float light = static_cast<float>(x % 8) / 8.F;
+    red(x, y) = glm::vec3(0.3F + 0.6F * light, 0.1F + 0.2F * light, 0.05F);
+    classes += static_cast<char>(x / 8 + 1);
+  }
   write_png8(out("red.png"), red, {});
   test::write_bytes(out("classes.png"), test::make_png(88, 40, 8, 0, classes));
   const std::string painting =

@@ -18,6 +18,7 @@
 #include "terrain/io/raster_io.h"
 #include "terrain/synthetic/synthetic.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/compose/synthetic_region.h"
 #include "tests/renderer/pipeline/painted_scene.h"
 
@@ -54,8 +55,8 @@ TEST(SceneCheck, SaysWhatThePictureTakesOfTerrainLargerThanMemory) {
   test::Folder folder;
   Raster<float> raster{
       Grid<float>(600, 600), {600000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
-  for (int y = 0; y < 600; ++y)
-    for (int x = 0; x < 600; ++x) raster.cells(x, y) = 900.F + static_cast<float>(x + y);
+  for (const auto [x, y] : test::cells(600, 600))
+    raster.cells(x, y) = 900.F + static_cast<float>(x + y);
   write_raster(folder / "terrain.tif", raster);
   const auto check = [&](const char* max) {
     return check_scene(

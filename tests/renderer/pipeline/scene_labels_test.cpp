@@ -19,6 +19,7 @@
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 #include "tests/notes.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -59,13 +60,12 @@ double height_of(const Peak& peak, glm::dvec2 cell) {
 
 std::vector<Peak> make_peaks() {
   std::vector<Peak> peaks;
-  for (int j = 0; j < 14; ++j)
-    for (int i = 0; i < 14; ++i) {
-      const int k = 14 * j + i;
-      const glm::dvec2 jitter(drawn(k, 0) - .5, drawn(k, 1) - .5);
-      peaks.push_back({glm::dvec2(17.0 + 22.0 * i, 17.0 + 22.0 * j) + 8.0 * jitter,
-                       900.0 + 1000.0 * drawn(k, 2)});
-    }
+  for (const auto [i, j] : test::cells(14, 14)) {
+    const int k = 14 * j + i;
+    const glm::dvec2 jitter(drawn(k, 0) - .5, drawn(k, 1) - .5);
+    peaks.push_back({glm::dvec2(17.0 + 22.0 * i, 17.0 + 22.0 * j) + 8.0 * jitter,
+                     900.0 + 1000.0 * drawn(k, 2)});
+  }
   return peaks;
 }
 
@@ -128,12 +128,11 @@ class ManyNames : public testing::Test {
   static void write_files() {
     const std::vector<Peak> peaks = make_peaks();
     Raster<float> raster{Grid<float>(cells, cells), frame, normalize_crs("EPSG:32632")};
-    for (int y = 0; y < cells; ++y)
-      for (int x = 0; x < cells; ++x) {
-        double z = 500.0 + .5 * x + .3 * y;
-        for (const Peak& peak : peaks) z = std::max(z, height_of(peak, {x, y}));
-        raster.cells(x, y) = static_cast<float>(z);
-      }
+    for (const auto [x, y] : test::cells(cells, cells)) {
+      double z = 500.0 + .5 * x + .3 * y;
+      for (const Peak& peak : peaks) z = std::max(z, height_of(peak, {x, y}));
+      raster.cells(x, y) = static_cast<float>(z);
+    }
     write_raster(*folder_ / "range.tif", raster);
 
     std::string names = "name,kind,rank,east,north\n";
@@ -260,15 +259,14 @@ TEST_F(ManyNames, NoPaintOfTwoNamesSharesAPixel) {
     Grid<glm::vec3> paper(rect.width(), rect.height(), glm::vec3(1.F, 0.F, 1.F));
     const Grid<glm::vec3> clean = paper;
     SheetPainter(drawing).paint(paper, {rect.x0, rect.y0});
-    for (int y = 0; y < paper.height(); ++y)
-      for (int x = 0; x < paper.width(); ++x) {
-        if (glm::length(paper(x, y) - clean(x, y)) < .3F) continue;
-        ++painted;
-        int& who = owner(rect.x0 + x, rect.y0 + y);
-        ASSERT_TRUE(who < 0 || who == static_cast<int>(i))
-            << label.text << " and " << sheet_->labels[static_cast<std::size_t>(who)].text;
-        who = static_cast<int>(i);
-      }
+    for (const auto [x, y] : test::cells(paper)) {
+      if (glm::length(paper(x, y) - clean(x, y)) < .3F) continue;
+      ++painted;
+      int& who = owner(rect.x0 + x, rect.y0 + y);
+      ASSERT_TRUE(who < 0 || who == static_cast<int>(i))
+          << label.text << " and " << sheet_->labels[static_cast<std::size_t>(who)].text;
+      who = static_cast<int>(i);
+    }
   }
   EXPECT_GT(painted, 20000U);
 }
@@ -292,17 +290,18 @@ TEST_F(ManyNames, MarksOfSummitsStandWithinTwoPixelsOfTheDrawnSummit) {
     double highest_m = -std::numeric_limits<double>::infinity();
     double where_m = 0.0;  // of the highest, from the file's place
     const glm::ivec2 about(label.mark.pixel);
-    for (int y = std::max(0, about.y - 120); y < std::min(size_px.y, about.y + 120); ++y)
-      for (int x = std::max(0, about.x - 120); x < std::min(size_px.x, about.x + 120); ++x) {
-        const double away_m = glm::length(position_of(x, y) - label.point.position);
-        if (std::isinf(traced_->depth_m(x, y)) || away_m > reach_m) continue;
-        shown.push_back({{x + .5, y + .5},
-                         drawn_height_m(x, y),
-                         static_cast<double>(traced_->footprint_m(x, y))});
-        if (shown.back().height_m <= highest_m) continue;
-        highest_m = shown.back().height_m;
-        where_m = away_m;
-      }
+    for (const auto [x, y] :
+         test::cells({std::max(0, about.x - 120), std::max(0, about.y - 120),
+                      std::min(size_px.x, about.x + 120), std::min(size_px.y, about.y + 120)})) {
+      const double away_m = glm::length(position_of(x, y) - label.point.position);
+      if (std::isinf(traced_->depth_m(x, y)) || away_m > reach_m) continue;
+      shown.push_back({{x + .5, y + .5},
+                       drawn_height_m(x, y),
+                       static_cast<double>(traced_->footprint_m(x, y))});
+      if (shown.back().height_m <= highest_m) continue;
+      highest_m = shown.back().height_m;
+      where_m = away_m;
+    }
     // Where ground still rises at the end of the search radius, generalization left no summit
     // there.
     if (where_m > reach_m - 1.5 * cell_m) continue;

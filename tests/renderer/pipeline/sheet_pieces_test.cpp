@@ -7,9 +7,9 @@
 #include "base/grid.h"
 #include "base/memory_limit.h"
 #include "renderer/exemplar/scan.h"
-#include "renderer/image/image_io.h"
 #include "renderer/world/scene_dem.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -21,8 +21,7 @@ TEST(SheetPieces, CoverTheRegionOnce) {
     for (const PixelRect& piece : pieces_of(region, {.piece_px = 100})) {
       EXPECT_EQ(piece.x0 / 100, (piece.x1 - 1) / 100) << "of one square of the sheet's grid";
       EXPECT_EQ(piece.y0 / 100, (piece.y1 - 1) / 100);
-      for (int y = piece.y0; y < piece.y1; ++y)
-        for (int x = piece.x0; x < piece.x1; ++x) ++count(x - region.x0, y - region.y0);
+      for (const auto [x, y] : test::cells(piece)) ++count(x - region.x0, y - region.y0);
     }
     for (const int n : count) ASSERT_EQ(n, 1);
   }

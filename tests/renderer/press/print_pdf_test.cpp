@@ -14,6 +14,7 @@
 #include "renderer/image/display_conversion.h"
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/image/icc/press_profile.h"
 
 namespace belvedere {
@@ -27,11 +28,10 @@ constexpr double dots_per_inch = 100.0;
 
 Grid<glm::vec3> coloured_squares() {
   Grid<glm::vec3> out(150, 100);
-  for (int y = 0; y < 100; ++y)
-    for (int x = 0; x < 150; ++x)
-      for (int c = 0; c < 3; ++c)
-        out(x, y)[c] =
-            static_cast<float>(random_uniform(9, x / 10, y / 10, static_cast<std::uint64_t>(c)));
+  for (const auto [x, y] : test::cells(150, 100))
+    for (int c = 0; c < 3; ++c)
+      out(x, y)[c] =
+          static_cast<float>(random_uniform(9, x / 10, y / 10, static_cast<std::uint64_t>(c)));
   return out;
 }
 
@@ -138,11 +138,10 @@ TEST_F(PrintPdf, WithoutAPressItIsThePicture) {
   const Grid<glm::vec3> page = read_picture(folder_ / "page-1.png");
   const Grid<glm::vec3> squares = coloured_squares();
   ASSERT_TRUE(page.same_size(squares));
-  for (int y = 5; y < 100; y += 10)
-    for (int x = 5; x < 150; x += 10)
-      for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(page(x, y)[c], squares(x, y)[c], .03)
-            << x << " " << y << ": by the tables of the program that shows it";
+  for (const auto [x, y] : test::cells({5, 5, 150, 100}, 10))
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(page(x, y)[c], squares(x, y)[c], .03)
+          << x << " " << y << ": by the tables of the program that shows it";
 }
 
 TEST_F(PrintPdf, LabelsStayTextAndPrintInBlack) {

@@ -4,15 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "renderer/image/display_conversion.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/rows/picture_files.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/image/icc/press_profile.h"
 #include "tests/renderer/image/rows/write_pictures.h"
 
@@ -22,10 +21,9 @@ namespace {
 // Greys that every press has, and a quarter of greens that none has.
 Grid<glm::vec3> greys_and_greens() {
   Grid<glm::vec3> out(80, 150);
-  for (int y = 0; y < 150; ++y)
-    for (int x = 0; x < 80; ++x)
-      out(x, y) = x < 20 ? glm::vec3(0.0F, 1.0F, 0.003F * static_cast<float>(y))
-                         : glm::vec3(0.3F + 0.004F * static_cast<float>(y));
+  for (const auto [x, y] : test::cells(80, 150))
+    out(x, y) = x < 20 ? glm::vec3(0.0F, 1.0F, 0.003F * static_cast<float>(y))
+                       : glm::vec3(0.3F + 0.004F * static_cast<float>(y));
   return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "base/statistics.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -25,8 +26,7 @@ RegisteredGround hill_ground() {
                        Grid<float>(width, height, 2.F)};
   out.position = Grid<glm::dvec2>(width, height);
   out.normal = Grid<glm::vec3>(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) out.normal(x, y) = normal_of_hills(x, y);
+  for (const auto [x, y] : test::cells(width, height)) out.normal(x, y) = normal_of_hills(x, y);
   return out;
 }
 
@@ -34,12 +34,11 @@ RegisteredGround hill_ground() {
 Grid<glm::vec3> painted_hills(glm::dvec2 shift, float noise) {
   const glm::vec3 sun = glm::normalize(glm::vec3(-1.F, 0.6F, 0.8F));
   Grid<glm::vec3> out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const float lit = glm::dot(normal_of_hills(x - shift.x, y - shift.y), sun);
-      const auto stroke = static_cast<float>(random_normal(3, x, y));
-      out(x, y) = glm::vec3(0.5F + 0.2F * lit, 0.05F, 0.02F - 0.1F * lit) + noise * stroke;
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const float lit = glm::dot(normal_of_hills(x - shift.x, y - shift.y), sun);
+    const auto stroke = static_cast<float>(random_normal(3, x, y));
+    out(x, y) = glm::vec3(0.5F + 0.2F * lit, 0.05F, 0.02F - 0.1F * lit) + noise * stroke;
+  }
   return out;
 }
 
@@ -68,8 +67,7 @@ TEST(MatchPaint, PaintThatSaysNothingGivesNoMatch) {
 
 TEST(MatchPaint, LooksForNoPlacesInTheSky) {
   RegisteredGround ground = hill_ground();
-  for (int y = 0; y < height / 2; ++y)
-    for (int x = 0; x < width; ++x) ground.altitude_m(x, y) = std::nanf("");
+  for (const auto [x, y] : test::cells(width, height / 2)) ground.altitude_m(x, y) = std::nanf("");
   for (const PaintMatch& match : match_paint(painted_hills({1.0, 1.0}, 0.03F), ground, example))
     EXPECT_GE(match.pixel.y, height / 2);
 }
@@ -91,8 +89,7 @@ TEST(MatchPaint, TheEvidenceIsLargestWhereTheGroundIsPainted) {
 
 TEST(MatchPaint, TheSkyHasNoEvidence) {
   RegisteredGround ground = hill_ground();
-  for (int y = 0; y < height / 2; ++y)
-    for (int x = 0; x < width; ++x) ground.altitude_m(x, y) = std::nanf("");
+  for (const auto [x, y] : test::cells(width, height / 2)) ground.altitude_m(x, y) = std::nanf("");
   const Grid<double> evidence = paint_evidence(painted_hills({0.0, 0.0}, 0.03F), ground, example);
   EXPECT_TRUE(std::isnan(evidence(3, 1)));
   EXPECT_FALSE(std::isnan(evidence(3, 3)));

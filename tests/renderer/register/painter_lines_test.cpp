@@ -1,6 +1,5 @@
 #include "renderer/register/painter_lines.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

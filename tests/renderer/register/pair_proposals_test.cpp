@@ -74,8 +74,7 @@ TEST(PairProposals, SummitsHaveTheirNamesAndOtherPlacesTheirAltitude) {
 TEST(PairProposals, AVoidThatWasFilledHasNoSummit) {
   Dem dem = three_summits();
   dem.filled = Grid<std::uint8_t>(80, 80);
-  for (int y = 10; y < 30; ++y)
-    for (int x = 10; x < 30; ++x) dem.filled(x, y) = 1;
+  for (const auto [x, y] : test::cells({10, 10, 30, 30})) dem.filled(x, y) = 1;
   const std::vector<KnownPlace> places = known_places(dem, {});
   ASSERT_EQ(places.size(), 2U);
   EXPECT_EQ(places[0].altitude_m, 700.0);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/grids.h"
 #include "tests/renderer/paint/hills_print.h"
 #include "tests/renderer/rock/rock_wall.h"
 
@@ -136,11 +137,10 @@ TEST(RockGround, DebrisReachesUpBeneathFunnels) {
 TEST(RockGround, SharesAreOfTheOwnSurface) {
   GuidanceBuffers g = test::make_wall(120, 80, 1.0);
   // The right half is meadow, far behind.
-  for (int y = 0; y < 80; ++y)
-    for (int x = 60; x < 120; ++x) {
-      g.land_cover(x, y) = alpine_grass;
-      g.depth_m(x, y) *= 1.5F;
-    }
+  for (const auto [x, y] : test::cells({60, 0, 120, 80})) {
+    g.land_cover(x, y) = alpine_grass;
+    g.depth_m(x, y) *= 1.5F;
+  }
   const RockAround around = look_around_rock({g, 1, {0, 0}}, 1.0, {0, 0, 120, 80});
   EXPECT_FLOAT_EQ(around.rock(58, 40), 1.0F);
   EXPECT_FLOAT_EQ(around.turf(58, 40), 0.0F);
@@ -211,16 +211,15 @@ TEST(CrestShift, ShowsEveryPixelAsOneOfItsColumn) {
   const GuidanceBuffers g = level_edge();
   const CrestShift shift = shift_of(g);
   const GuidanceBuffers shifted = gather_rows(g, shift, {0, 0, width, height});
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const int row = y + shift.rows(x, y);
-      ASSERT_LE(std::abs(row - y), crest_reach_px(ppu));
-      ASSERT_EQ(shifted.depth_m(x, y), g.depth_m(x, row));
-      ASSERT_EQ(shifted.land_cover(x, y), g.land_cover(x, row));
-      ASSERT_EQ(shifted.position_m(x, y), g.position_m(x, row));
-      ASSERT_GE(shifted.front(x, y), 0.0F);
-      ASSERT_LE(shifted.front(x, y), 1.0F);
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const int row = y + shift.rows(x, y);
+    ASSERT_LE(std::abs(row - y), crest_reach_px(ppu));
+    ASSERT_EQ(shifted.depth_m(x, y), g.depth_m(x, row));
+    ASSERT_EQ(shifted.land_cover(x, y), g.land_cover(x, row));
+    ASSERT_EQ(shifted.position_m(x, y), g.position_m(x, row));
+    ASSERT_GE(shifted.front(x, y), 0.0F);
+    ASSERT_LE(shifted.front(x, y), 1.0F);
+  }
   // Far from the edge nothing moves.
   for (int x = 0; x < width; ++x) {
     ASSERT_EQ(shift.rows(x, 60), 0);
@@ -233,11 +232,10 @@ TEST(CrestShift, LeavesEdgesOfMeadowsAndLowRims) {
   for (const std::int16_t rows : shift_of(meadow).rows) ASSERT_EQ(rows, 0);
   // Rock of four units in front of something nearer: too little to stretch.
   GuidanceBuffers rim = level_edge();
-  for (int y = edge + 8; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      rim.depth_m(x, y) = 20000.0F;
-      rim.land_cover(x, y) = LandCoverClass::forest;
-    }
+  for (const auto [x, y] : test::cells({0, edge + 8, width, height})) {
+    rim.depth_m(x, y) = 20000.0F;
+    rim.land_cover(x, y) = LandCoverClass::forest;
+  }
   for (const std::int16_t rows : shift_of(rim).rows) ASSERT_EQ(rows, 0);
 }
 

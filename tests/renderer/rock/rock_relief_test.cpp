@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "tests/grids.h"
 #include "tests/renderer/paint/hills_print.h"
 #include "tests/renderer/rock/rock_wall.h"
 
@@ -41,11 +42,10 @@ RockRelief cut(const RockRelief& r, PixelRect rect) {
 double contrast_of(const RockRelief& relief, int first, int end) {
   double sum = 0.0;
   double squares = 0.0;
-  for (int y = first; y < end; ++y)
-    for (int x = 0; x < relief.tone.width(); ++x) {
-      sum += relief.tone(x, y);
-      squares += relief.tone(x, y) * relief.tone(x, y);
-    }
+  for (const auto [x, y] : test::cells({0, first, relief.tone.width(), end})) {
+    sum += relief.tone(x, y);
+    squares += relief.tone(x, y) * relief.tone(x, y);
+  }
   const double count = static_cast<double>(relief.tone.width()) * (end - first);
   return std::sqrt(squares / count - sum * sum / count / count);
 }
@@ -65,11 +65,10 @@ TEST(RockRelief, AWallStandsInPlanes) {
   const RockRelief relief = relief_of(g, parameters_of(2.0));
   std::map<std::uint32_t, int> planes;
   double edges = 0.0;
-  for (int y = 0; y < 300; ++y)
-    for (int x = 1; x < 300; ++x) {
-      ++planes[relief.facet(x, y)];
-      edges += relief.facet(x, y) != relief.facet(x - 1, y) ? 1.0 : 0.0;
-    }
+  for (const auto [x, y] : test::cells({1, 0, 300, 300})) {
+    ++planes[relief.facet(x, y)];
+    edges += relief.facet(x, y) != relief.facet(x - 1, y) ? 1.0 : 0.0;
+  }
   // Planes some units wide and high: neither specks nor one slab.
   const double area_units = 300.0 * 299.0 / 4.0 / static_cast<double>(planes.size());
   EXPECT_GT(area_units, 15.0);
@@ -118,8 +117,7 @@ TEST(RockRelief, OfALoneRockIsThatOfTheWhole) {
   GuidanceBuffers g = far;
   const PixelRect lone{60, 60, 190, 380};  // long enough for planes to meet at its border
   for (const PixelRect rock : {lone, PixelRect{440, 20, 446, 46}})
-    for (int y = rock.y0; y < rock.y1; ++y)
-      for (int x = rock.x0; x < rock.x1; ++x) g.land_cover(x, y) = LandCoverClass::rock;
+    for (const auto [x, y] : test::cells(rock)) g.land_cover(x, y) = LandCoverClass::rock;
   const RockParameters p = parameters_of(1.0);
   const RockRelief whole = make_rock_relief(g, {far, 1, {0, 0}}, p, {0, 0}, silent_progress());
   const PixelRect kept = grown(lone, 20);
@@ -136,11 +134,10 @@ TEST(RockRelief, OfALoneRockIsThatOfTheWhole) {
 TEST(RockRelief, OfAPartOfNearTurfIsThatOfTheWhole) {
   GuidanceBuffers g = test::make_wall(1000, 760, 1.0, LandCoverClass::alpine_grass);
   for (float& metres : g.footprint_m) metres = 8.0F;
-  for (int y = 0; y < g.height(); ++y)
-    for (int x = 0; x < g.width(); ++x) {
-      g.slope_deg(x, y) = x < 500 ? 41.0F : 25.0F;
-      if (x > 500 && y < 360) g.land_cover(x, y) = LandCoverClass::rock;
-    }
+  for (const auto [x, y] : test::cells(g)) {
+    g.slope_deg(x, y) = x < 500 ? 41.0F : 25.0F;
+    if (x > 500 && y < 360) g.land_cover(x, y) = LandCoverClass::rock;
+  }
   const RockParameters p = parameters_of(1.0);
   // Left of x = 500 ribs in steep turf, right of it the border of turf and rock.
   for (const PixelRect kept : {PixelRect{430, 380, 500, 440}, PixelRect{510, 340, 570, 380}}) {
@@ -148,9 +145,8 @@ TEST(RockRelief, OfAPartOfNearTurfIsThatOfTheWhole) {
         make_rock_relief(g, {g, 1, {0, 0}}, p, {0, 0}, silent_progress(), kept);
     const auto moved_to = [&](LandCoverClass id) {
       int count = 0;
-      for (int y = 0; y < kept.height(); ++y)
-        for (int x = 0; x < kept.width(); ++x)
-          count += whole.land_cover(x, y) == id && g.land_cover(kept.x0 + x, kept.y0 + y) != id;
+      for (const auto [x, y] : test::cells(kept))
+        count += whole.land_cover(x, y) == id && g.land_cover(kept.x0 + x, kept.y0 + y) != id;
       return count;
     };
     EXPECT_GT(moved_to(LandCoverClass::rock), kept.width() * kept.height() / 50);
@@ -214,19 +210,17 @@ TEST(RockRelief, ARisenCrestIsLitAsTheWallBelowIt) {
   GuidanceBuffers seen = test::make_wall(40, 60, 1.0);
   GuidanceBuffers g = test::make_wall(40 * factor, 60 * factor, factor);
   const auto put_valley = [](GuidanceBuffers& view, int end) {
-    for (int y = 0; y < end; ++y)
-      for (int x = 0; x < view.width(); ++x) {
-        view.depth_m(x, y) = 90000.0F;
-        view.land_cover(x, y) = LandCoverClass::pasture;
-      }
+    for (const auto [x, y] : test::cells(view.width(), end)) {
+      view.depth_m(x, y) = 90000.0F;
+      view.land_cover(x, y) = LandCoverClass::pasture;
+    }
   };
   put_valley(seen, ridge);
   put_valley(g, ridge * factor - rise);
   const RockRelief relief =
       make_rock_relief(g, {seen, factor, {0, 0}}, parameters_of(factor), {0, 0}, silent_progress());
-  for (int y = ridge * factor - rise; y < ridge * factor; ++y)
-    for (int x = 0; x < g.width(); ++x)
-      ASSERT_EQ(relief.land_cover(x, y), LandCoverClass::rock) << x << " " << y;
+  for (const auto [x, y] : test::cells({0, ridge * factor - rise, g.width(), ridge * factor}))
+    ASSERT_EQ(relief.land_cover(x, y), LandCoverClass::rock) << x << " " << y;
   // Rock far from other rock has no contrast, so it would be flat there.
   EXPECT_GT(contrast_of(relief, ridge * factor - rise, ridge * factor),
             0.6 * contrast_of(relief, ridge * factor, ridge * factor + rise));

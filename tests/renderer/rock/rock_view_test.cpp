@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/grids.h"
 #include "tests/renderer/rock/rock_wall.h"
 
 namespace belvedere {
@@ -30,11 +31,10 @@ TEST(RockView, LooksAtAPixelAUnit) {
 // cells.
 TEST(RockView, SizesChangeByCellsNotByPixels) {
   GuidanceBuffers g = test::make_wall(900, 60, 1.0);
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 900; ++x) {
-      g.depth_m(x, y) = 40000.0F + 30.0F * static_cast<float>(x);
-      g.footprint_m(x, y) = 15.0F + 0.026F * static_cast<float>(x);
-    }
+  for (const auto [x, y] : test::cells(900, 60)) {
+    g.depth_m(x, y) = 40000.0F + 30.0F * static_cast<float>(x);
+    g.footprint_m(x, y) = 15.0F + 0.026F * static_cast<float>(x);
+  }
   const RockView view = view_rock(g, {g, 1, {0, 0}}, parameters(1.0), {0, 0}, {0, 0, 900, 60});
   const auto band = [&](int x, int y) {
     return view.bands.at({static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F},

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -21,34 +22,33 @@ std::vector<std::pair<float, int>> heights_at(const SpurCells& cells, float slen
   const int column = static_cast<int>(std::floor(position.x / cells.spacing));
   const int row = static_cast<int>(std::floor(position.y / cells.spacing));
   std::vector<std::pair<float, int>> heights;
-  for (int y = 0; y < cells.count.y; ++y)
-    for (int x = 0; x < cells.count.x; ++x) {
-      if (std::abs(cells.first.x + x - column) > reach_across) continue;
-      if (cells.first.y + y < row - reach_up || cells.first.y + y > row + reach_down) continue;
-      const int number = y * cells.count.x + x;
-      const Spur& spur = cells.spurs[static_cast<std::size_t>(number)];
-      if (!spur.grown) continue;
-      const glm::vec2 offset = (position - spur.position) * (1.0F / cells.spacing);
-      if (std::abs(depth_m - spur.depth_m) >
-          spur.tolerance_m * (stray + std::sqrt(offset.x * offset.x + offset.y * offset.y)))
-        continue;
-      const float v = (offset.x * spur.down.x + offset.y * spur.down.y) * slender;
-      const float u = offset.x * spur.down.y - offset.y * spur.down.x;
-      const float wide = std::abs(u);
-      const float head = spur.skew_head * u - head_point * wide;
-      const float tail = spur.length + spur.skew_foot * u + foot_point * wide;
-      float height = spur.top;
-      if (v < head)
-        height += head_rise * (v - head);
-      else if (v < tail || tail < head)
-        height += back_rise * (v - head);
-      else
-        height += back_rise * (tail - head) - spur.foot * (v - tail);
-      height -= spur.flank[u > 0.0F ? 1 : 0] /
-                (opening + opening_along * std::clamp(v, opening_from, opening_to)) * wide;
-      if (spur.parent != parent) height -= cells.lost_beyond;
-      heights.emplace_back(height, number);
-    }
+  for (const auto [x, y] : test::cells(cells.count.x, cells.count.y)) {
+    if (std::abs(cells.first.x + x - column) > reach_across) continue;
+    if (cells.first.y + y < row - reach_up || cells.first.y + y > row + reach_down) continue;
+    const int number = y * cells.count.x + x;
+    const Spur& spur = cells.spurs[static_cast<std::size_t>(number)];
+    if (!spur.grown) continue;
+    const glm::vec2 offset = (position - spur.position) * (1.0F / cells.spacing);
+    if (std::abs(depth_m - spur.depth_m) >
+        spur.tolerance_m * (stray + std::sqrt(offset.x * offset.x + offset.y * offset.y)))
+      continue;
+    const float v = (offset.x * spur.down.x + offset.y * spur.down.y) * slender;
+    const float u = offset.x * spur.down.y - offset.y * spur.down.x;
+    const float wide = std::abs(u);
+    const float head = spur.skew_head * u - head_point * wide;
+    const float tail = spur.length + spur.skew_foot * u + foot_point * wide;
+    float height = spur.top;
+    if (v < head)
+      height += head_rise * (v - head);
+    else if (v < tail || tail < head)
+      height += back_rise * (v - head);
+    else
+      height += back_rise * (tail - head) - spur.foot * (v - tail);
+    height -= spur.flank[u > 0.0F ? 1 : 0] /
+              (opening + opening_along * std::clamp(v, opening_from, opening_to)) * wide;
+    if (spur.parent != parent) height -= cells.lost_beyond;
+    heights.emplace_back(height, number);
+  }
   std::stable_sort(heights.begin(), heights.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   return heights;

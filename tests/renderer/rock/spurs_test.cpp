@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/rock/spur_peaks.h"
+#include "tests/grids.h"
 #include "tests/renderer/rock/rock_wall.h"
 
 namespace belvedere {
@@ -158,17 +159,16 @@ TEST(Spurs, OfAPartAreThoseOfTheWhole) {
   const WideView wide{cut, 1, {held.x0, held.y0}};
   const Grid<glm::vec2> fall = smooth_fall_lines(wide, 1.0, {0, 0, cut.width(), cut.height()});
   const SpurField field = grow_spurs({wide, fall, 1.0, 1}, limestone(), part, second_band);
-  for (int y = part.y0; y < part.y1; ++y)
-    for (int x = part.x0; x < part.x1; ++x) {
-      const glm::vec2 position(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-      const SpurHits own = find_spurs(field, 1, position, wall.guidance.depth_m(x, y));
-      const SpurHits whole = wall.at(position.x, position.y);
-      for (std::size_t k = 0; k < own.sizes.size(); ++k) {
-        ASSERT_EQ(own[k].height, whole[k].height) << x << ' ' << y << " size " << k;
-        ASSERT_EQ(own[k].flank_id(), whole[k].flank_id());
-        ASSERT_EQ(own[k].slope, whole[k].slope);
-      }
+  for (const auto [x, y] : test::cells(part)) {
+    const glm::vec2 position(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+    const SpurHits own = find_spurs(field, 1, position, wall.guidance.depth_m(x, y));
+    const SpurHits whole = wall.at(position.x, position.y);
+    for (std::size_t k = 0; k < own.sizes.size(); ++k) {
+      ASSERT_EQ(own[k].height, whole[k].height) << x << ' ' << y << " size " << k;
+      ASSERT_EQ(own[k].flank_id(), whole[k].flank_id());
+      ASSERT_EQ(own[k].slope, whole[k].slope);
     }
+  }
 }
 
 }  // namespace

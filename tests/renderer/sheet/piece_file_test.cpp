@@ -9,6 +9,7 @@
 #include "renderer/image/guidance_io.h"
 #include "renderer/stages/lit_picture.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -41,12 +42,11 @@ TEST_F(PieceFile, RowsComeBackWhereTheyBelong) {
   Grid<float> light(12, 2, -1.F);
   Grid<std::uint8_t> id(12, 2, 99);
   read_piece_rows(path_, key, 22, 24, 7, {plane_of(light), plane_of(id)});
-  for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < 12; ++x) {
-      const bool inside = x >= 3 && x < 10;
-      EXPECT_EQ(light(x, y), inside ? values_.light(x - 3, y + 2) : -1.F);
-      EXPECT_EQ(id(x, y), inside ? values_.id(x - 3, y + 2) : 99);
-    }
+  for (const auto [x, y] : test::cells(12, 2)) {
+    const bool inside = x >= 3 && x < 10;
+    EXPECT_EQ(light(x, y), inside ? values_.light(x - 3, y + 2) : -1.F);
+    EXPECT_EQ(id(x, y), inside ? values_.id(x - 3, y + 2) : 99);
+  }
 }
 
 TEST_F(PieceFile, OnlyTheRightPieceIsWhole) {

@@ -9,6 +9,7 @@
 #include "base/grid.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/stages/stages.h"
+#include "tests/grids.h"
 #include "tests/scenes.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/learn_texture.h"
@@ -110,19 +111,17 @@ TEST(ModelGround, OnlyItsClassesArePaintedAndNoSky) {
   constexpr int side = 64;
   GuidanceBuffers guidance = flat_guidance(side, side, pasture, {0.F, 1.F});
   Grid<LandCoverClass> shown(side, side, pasture);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      if (x < 20) shown(x, y) = rock;
-      if (y < 12) guidance.depth_m(x, y) = infinity;
-    }
+  for (const auto [x, y] : test::cells(side, side)) {
+    if (x < 20) shown(x, y) = rock;
+    if (y < 12) guidance.depth_m(x, y) = infinity;
+  }
   const ModelPaint paint =
       make_model_paint(meadow_models(), {0, 0, side, side}, shown, guidance, {0, 0, side, side});
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      const bool expected = x >= 20 && y >= 12;
-      ASSERT_EQ(paint.made(x, y), expected ? 1 : 0) << x << " " << y;
-      ASSERT_EQ(paint.texel(x, y) != glm::vec3(0.F), expected) << x << " " << y;
-    }
+  for (const auto [x, y] : test::cells(side, side)) {
+    const bool expected = x >= 20 && y >= 12;
+    ASSERT_EQ(paint.made(x, y), expected ? 1 : 0) << x << " " << y;
+    ASSERT_EQ(paint.texel(x, y) != glm::vec3(0.F), expected) << x << " " << y;
+  }
 }
 
 // In a class with two models bright positions have one and dark positions the other, with a ragged
@@ -135,8 +134,7 @@ TEST(ModelGround, LightAndShadeHaveModelsOfTheirOwn) {
   two.shaded[static_cast<std::size_t>(pasture)] = 1;
   EXPECT_TRUE(two.by_light());
   Grid<float> tone(side, side);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) tone(x, y) = x < 32 ? .2F : x < 64 ? .55F : .9F;
+  for (const auto [x, y] : test::cells(side, side)) tone(x, y) = x < 32 ? .2F : x < 64 ? .55F : .9F;
   const PixelRect tile{0, 0, side, side};
   const Grid<LandCoverClass> shown(side, side, pasture);
   const GuidanceBuffers guidance = flat_guidance(side, side, pasture, {0.F, 1.F});
@@ -161,11 +159,10 @@ TEST(ModelGround, TheBaseIsThePaintWithoutItsStrokes) {
   const auto figures = [](const Grid<glm::vec3>& picture) {
     double mean = 0.0;
     double step = 0.0;
-    for (int y = 0; y < picture.height(); ++y)
-      for (int x = 1; x < picture.width(); ++x) {
-        mean += static_cast<double>(picture(x, y).y);
-        step += std::abs(static_cast<double>(picture(x, y).y - picture(x - 1, y).y));
-      }
+    for (const auto [x, y] : test::cells({1, 0, picture.width(), picture.height()})) {
+      mean += static_cast<double>(picture(x, y).y);
+      step += std::abs(static_cast<double>(picture(x, y).y - picture(x - 1, y).y));
+    }
     return std::pair(mean / static_cast<double>(picture.size()),
                      step / static_cast<double>(picture.size()));
   };

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "base/parallel.h"
 #include "renderer/stages/lit_picture.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -71,14 +71,13 @@ TEST(MistOfASheet, NothingStandsOutOfDeepFog) {
   const Grid<float> veil = stages.picture.mist_sight->read(sheet).share;
   const Grid<glm::vec3> picture = deep.make(sheet);
   int hidden = 0;
-  for (int y = 100; y < 210; ++y)
-    for (int x = 40; x < 190; ++x) {
-      if (veil(x, y) < 0.999F) continue;
-      ++hidden;
-      for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(picture(x, y)[c], fog(x, y)[c], 0.08F)
-            << "edges are softened; a tree is .3 darker";
-    }
+  for (const auto [x, y] : test::cells({40, 100, 190, 210})) {
+    if (veil(x, y) < 0.999F) continue;
+    ++hidden;
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(picture(x, y)[c], fog(x, y)[c], 0.08F)
+          << "edges are softened; a tree is .3 darker";
+  }
   EXPECT_GT(hidden, 8000);
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -32,27 +33,26 @@ struct PaintedCanvas {
     guidance.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::forest);
     guidance.shadow = Grid<float>(width, height, 0.75F);
     guidance.tone = Grid<float>(width, height, 0.5F);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const std::size_t i = bare.index(x, y);
-        if (y < 5) guidance.depth_m[i] = std::numeric_limits<float>::infinity();
-        if (x < 10) guidance.land_cover[i] = LandCoverClass::water;
-        if (x > 30) guidance.land_cover[i] = LandCoverClass::glacier;
-        for (int c = 0; c < 3; ++c)
-          bare[i][c] = static_cast<float>(draw(x, y, static_cast<std::uint64_t>(c)));
-        mist.share[i] = y < 15 ? static_cast<float>(draw(x, y, 5)) : 0.F;
-        mist.colour[i] = {0.8F, static_cast<float>(draw(x, y, 6)), 0.9F};
-        picture[i] = bare[i] + mist.share[i] * (mist.colour[i] - bare[i]);
-        for (std::uint64_t s = 0; s < 12; ++s) {
-          const auto alpha = static_cast<float>(draw(x, y, 10 + s));
-          const glm::vec3 colour(static_cast<float>(draw(x, y, 30 + s)),
-                                 static_cast<float>(draw(x, y, 50 + s)), 0.4F);
-          const auto part = static_cast<PaintPart>(static_cast<int>(draw(x, y, 70 + s) * 7.0));
-          if (draw(x, y, 90 + s) < 0.5) continue;
-          picture[i] += alpha * (colour - picture[i]);
-          parts.cover(x + position.x0, y + position.y0, part, alpha, colour);
-        }
+    for (const auto [x, y] : test::cells(width, height)) {
+      const std::size_t i = bare.index(x, y);
+      if (y < 5) guidance.depth_m[i] = std::numeric_limits<float>::infinity();
+      if (x < 10) guidance.land_cover[i] = LandCoverClass::water;
+      if (x > 30) guidance.land_cover[i] = LandCoverClass::glacier;
+      for (int c = 0; c < 3; ++c)
+        bare[i][c] = static_cast<float>(draw(x, y, static_cast<std::uint64_t>(c)));
+      mist.share[i] = y < 15 ? static_cast<float>(draw(x, y, 5)) : 0.F;
+      mist.colour[i] = {0.8F, static_cast<float>(draw(x, y, 6)), 0.9F};
+      picture[i] = bare[i] + mist.share[i] * (mist.colour[i] - bare[i]);
+      for (std::uint64_t s = 0; s < 12; ++s) {
+        const auto alpha = static_cast<float>(draw(x, y, 10 + s));
+        const glm::vec3 colour(static_cast<float>(draw(x, y, 30 + s)),
+                               static_cast<float>(draw(x, y, 50 + s)), 0.4F);
+        const auto part = static_cast<PaintPart>(static_cast<int>(draw(x, y, 70 + s) * 7.0));
+        if (draw(x, y, 90 + s) < 0.5) continue;
+        picture[i] += alpha * (colour - picture[i]);
+        parts.cover(x + position.x0, y + position.y0, part, alpha, colour);
       }
+    }
   }
   PictureLayers cut(const Grid<glm::vec3>& finished) const {
     return cut_layers(bare, mist, parts, position, guidance, haze, finished);

@@ -7,6 +7,7 @@
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/texture/statistical/texture_crops.h"
 
 namespace belvedere {
@@ -39,13 +40,12 @@ PaintBeforeSeams paint() {
   static const std::vector<PaintedExemplar> two = paintings();
   PaintBeforeSeams out{Grid<glm::vec3>(side, 120), Grid<std::uint16_t>(side, 120),
                        Grid<float>(side, 120, 1000.F)};
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < side; ++x) {
-      const std::size_t source =
-          x < 70 + static_cast<int>(6.0 * gaussian_noise(5, 0.0, y, 9.0)) ? 0 : 1;
-      out.source(x, y) = source_of(source, pasture);
-      out.even(x, y) = in_even_light(two[source].picture(x % 140, y), nullptr, 0.0, pasture);
-    }
+  for (const auto [x, y] : test::cells(side, 120)) {
+    const std::size_t source =
+        x < 70 + static_cast<int>(6.0 * gaussian_noise(5, 0.0, y, 9.0)) ? 0 : 1;
+    out.source(x, y) = source_of(source, pasture);
+    out.even(x, y) = in_even_light(two[source].picture(x % 140, y), nullptr, 0.0, pasture);
+  }
   return out;
 }
 
@@ -57,13 +57,12 @@ const SeamSources& sources() {
 double step_across(const Grid<glm::vec3>& even, const Grid<std::uint16_t>& source) {
   double sum = 0.0;
   int count = 0;
-  for (int y = 0; y < even.height(); ++y)
-    for (int x = 1; x < even.width(); ++x)
-      if (source(x, y) != source(x - 1, y)) {
-        for (int c = 0; c < 3; ++c)
-          sum += static_cast<double>(std::abs(even(x, y)[c] - even(x - 1, y)[c]));
-        ++count;
-      }
+  for (const auto [x, y] : test::cells({1, 0, even.width(), even.height()}))
+    if (source(x, y) != source(x - 1, y)) {
+      for (int c = 0; c < 3; ++c)
+        sum += static_cast<double>(std::abs(even(x, y)[c] - even(x - 1, y)[c]));
+      ++count;
+    }
   return sum / count;
 }
 
@@ -81,17 +80,16 @@ TEST(KnitGround, PixelsAlongTheSeamAloneAndLessOfAStep) {
   const SeamPaint with_seam = synthesize_ground_seams(models, given, all, all, 3);
   Grid<glm::vec3> even = given.even;
   int made = 0;
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < side; ++x) {
-      bool near = false;
-      for (int v = y - seam_half_px; v <= y + seam_half_px; ++v)
-        for (int u = x - seam_half_px; u <= x + seam_half_px; ++u)
-          near |= given.source.clamped(u, v) != given.source(x, y);
-      if (with_seam.made(x, y) == 0) continue;
-      ASSERT_TRUE(near) << x << " " << y;
-      even(x, y) = with_seam.even(x, y);
-      ++made;
-    }
+  for (const auto [x, y] : test::cells(side, 120)) {
+    bool near = false;
+    for (int v = y - seam_half_px; v <= y + seam_half_px; ++v)
+      for (int u = x - seam_half_px; u <= x + seam_half_px; ++u)
+        near |= given.source.clamped(u, v) != given.source(x, y);
+    if (with_seam.made(x, y) == 0) continue;
+    ASSERT_TRUE(near) << x << " " << y;
+    even(x, y) = with_seam.even(x, y);
+    ++made;
+  }
   EXPECT_GT(made, 120 * 2 * (seam_half_px - 1));
   EXPECT_LT(step_across(even, given.source), .6 * step_across(given.even, given.source));
 }

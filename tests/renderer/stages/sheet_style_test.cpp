@@ -13,6 +13,7 @@
 #include "renderer/style/style_ground.h"
 #include "renderer/world/picture_parameters.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/style/styled_sheet.h"
 #include "tests/scenes.h"
 
@@ -58,8 +59,8 @@ struct StyledScene {
 TEST(SheetStyle, SightHasTheLowestSkyAndMostOfTheDistances) {
   constexpr float sky = std::numeric_limits<float>::infinity();
   Grid<float> depth_m(100, 4, sky);
-  for (int y = 2; y < 4; ++y)
-    for (int x = 0; x < 100; ++x) depth_m(x, y) = static_cast<float>(1000 + x);
+  for (const auto [x, y] : test::cells({0, 2, 100, 4}))
+    depth_m(x, y) = static_cast<float>(1000 + x);
   depth_m(7, 2) = sky;
   const StyleSight sight = style_sight_of(depth_m, 5);
   EXPECT_EQ(sight.sky_rows, 15);

@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/texture/statistical/texture_crops.h"
 
 namespace belvedere {
@@ -40,20 +41,19 @@ struct Bent {
                 Grid<std::uint8_t>(square_px, square_px)};
   Bent() {
     const Grid<Rgb8> other = heath(square_px, square_px);
-    for (int y = 0; y < square_px; ++y)
-      for (int x = 0; x < square_px; ++x) {
-        const int from = 60 + static_cast<int>(6.0 * gaussian_noise(3, 0.0, y, 8.0));
-        if (x >= from) {
-          picture(x, y) = other(x, y);
-          zone.side(x, y) = 2;
-        }
-        if (x >= from - seam_half_px && x < from + seam_half_px) zone.hole(x, y) = 1;
-        if (y < 20 && x > 50) {
-          picture(x, y) = {255, 255, 255};
-          zone.side(x, y) = 0;
-          zone.hole(x, y) = 0;
-        }
+    for (const auto [x, y] : test::cells(square_px, square_px)) {
+      const int from = 60 + static_cast<int>(6.0 * gaussian_noise(3, 0.0, y, 8.0));
+      if (x >= from) {
+        picture(x, y) = other(x, y);
+        zone.side(x, y) = 2;
       }
+      if (x >= from - seam_half_px && x < from + seam_half_px) zone.hole(x, y) = 1;
+      if (y < 20 && x > 50) {
+        picture(x, y) = {255, 255, 255};
+        zone.side(x, y) = 0;
+        zone.hole(x, y) = 0;
+      }
+    }
   }
 };
 
@@ -63,18 +63,17 @@ double step_ratio(const Grid<Rgb8>& picture, const SeamZone& zone) {
   double inside = 0.0;
   int n_across = 0;
   int n_inside = 0;
-  for (int y = 20; y < square_px; ++y)
-    for (int x = 1; x < square_px; ++x) {
-      double step = 0.0;
-      for (std::size_t c = 0; c < 3; ++c) step += std::abs(picture(x, y)[c] - picture(x - 1, y)[c]);
-      if (zone.side(x, y) != zone.side(x - 1, y)) {
-        across += step;
-        ++n_across;
-      } else if (zone.hole(x, y) == 0 && zone.hole(x - 1, y) == 0) {
-        inside += step;
-        ++n_inside;
-      }
+  for (const auto [x, y] : test::cells({1, 20, square_px, square_px})) {
+    double step = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) step += std::abs(picture(x, y)[c] - picture(x - 1, y)[c]);
+    if (zone.side(x, y) != zone.side(x - 1, y)) {
+      across += step;
+      ++n_across;
+    } else if (zone.hole(x, y) == 0 && zone.hole(x - 1, y) == 0) {
+      inside += step;
+      ++n_inside;
     }
+  }
   return across / n_across / (inside / n_inside);
 }
 

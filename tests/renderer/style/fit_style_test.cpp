@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "renderer/style/style_file.h"
+#include "tests/grids.h"
 #include "tests/renderer/style/synthetic_painting.h"
 #include "texture/synthesis/exemplar.h"
 
@@ -144,11 +145,10 @@ TEST(FitAir, FarAirOfTheMaskGoesBeforeGuesses) {
   const StyleAir without = fit_air(inferred, horizon);
   EXPECT_FALSE(without.far_seen);
   EXPECT_NEAR(without.mist.y, 0.5 * (without.far.y + horizon.y), 1e-12);
-  for (int y = 24; y < 34; ++y)
-    for (int x = 0; x < landscape.mask.width(); ++x) {
-      landscape.mask(x, y) = far_air_label;
-      landscape.picture(x, y) = from_oklab({0.7, -0.03, -0.08});
-    }
+  for (const auto [x, y] : test::cells({0, 24, landscape.mask.width(), 34})) {
+    landscape.mask(x, y) = far_air_label;
+    landscape.picture(x, y) = from_oklab({0.7, -0.03, -0.08});
+  }
   const StyleAir with = fit_air(prepare_painting(landscape.picture, landscape.mask), horizon);
   EXPECT_TRUE(with.far_seen);
   EXPECT_NEAR(with.far.z, 0.5 * -0.08 + 0.5 * horizon.z, 2e-3);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
+#include "tests/grids.h"
 #include "tests/renderer/style/styled_sheet.h"
 
 namespace belvedere {
@@ -150,8 +151,7 @@ TEST(StyleFinish, HalfOfTheFineDetailComesBack) {
 
 TEST(StyleFinish, RidgesAreLitFromTheUpperLeft) {
   Finish finish;
-  for (int y = 0; y < 60; ++y)
-    for (int x = 25; x < 35; ++x) finish.canvas.height(x, y) = 0.9F;
+  for (const auto [x, y] : test::cells({25, 0, 35, 60})) finish.canvas.height(x, y) = 0.9F;
   EXPECT_GT(finish.light(24, 30), 0.51F);
   EXPECT_LT(finish.light(35, 30), 0.49F);
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "renderer/style/paint_style.h"
 #include "renderer/style/style_strokes.h"

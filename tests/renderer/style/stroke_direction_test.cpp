@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/grids.h"
 #include "tests/renderer/style/styled_sheet.h"
 
 namespace belvedere {
@@ -51,9 +52,8 @@ TEST(StrokeDirection, RunsDownTheFallLineOfAFlatColour) {
 TEST(StrokeDirection, FollowsStripesOfLight) {
   Slope slope = make_slope(LandCoverClass::alpine_grass, glm::vec2(0.0F));
   // Bands whose light changes along (0.8, -0.6), so that they run along (0.6, 0.8).
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 80; ++x)
-      slope.lab(x, y).x = 0.5F + 0.2F * static_cast<float>(std::sin(0.3 * (0.8 * x - 0.6 * y)));
+  for (const auto [x, y] : test::cells(80, 80))
+    slope.lab(x, y).x = 0.5F + 0.2F * static_cast<float>(std::sin(0.3 * (0.8 * x - 0.6 * y)));
   const Grid<glm::vec2> along = direction(slope, style_of(0.0, 0.8));
   EXPECT_GT(std::abs(glm::dot(along(40, 40), glm::vec2(0.6F, 0.8F))), 0.999);
 }
@@ -96,11 +96,10 @@ Steadiness steadiness_of(const Grid<glm::vec2>& along) {
     for (int u = 0; u + side <= along.width(); u += side) {
       double c = 0.0;
       double s = 0.0;
-      for (int y = v; y < v + side; ++y)
-        for (int x = u; x < u + side; ++x) {
-          c += along(x, y).x * along(x, y).x - along(x, y).y * along(x, y).y;
-          s += 2.0 * along(x, y).x * along(x, y).y;
-        }
+      for (const auto [x, y] : test::cells({u, v, u + side, v + side})) {
+        c += along(x, y).x * along(x, y).x - along(x, y).y * along(x, y).y;
+        s += 2.0 * along(x, y).x * along(x, y).y;
+      }
       whole_c += c;
       whole_s += s;
       near += std::hypot(c, s) / (side * side);
@@ -126,9 +125,8 @@ TEST(StrokeDirection, SwirlsHaveTheSizesOfThePaintingInASteadyFlow) {
 
 TEST(StrokeDirection, StrokesFollowTheFormsOfCumulusClouds) {
   Slope sky = make_slope(LandCoverClass::sky, glm::vec2(0.0F));
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 80; ++x)
-      sky.lab(x, y).x = 0.5F + 0.2F * static_cast<float>(std::sin(0.3 * x));  // upright bands
+  for (const auto [x, y] : test::cells(80, 80))
+    sky.lab(x, y).x = 0.5F + 0.2F * static_cast<float>(std::sin(0.3 * x));  // upright bands
   Style style = style_of(0.9, 0.8);
   EXPECT_GT(std::abs(direction(sky, style)(40, 40).x), 0.99);
   style.sky.upper_edges = 0.35;

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "tests/grids.h"
 #include "tests/renderer/style/styled_sheet.h"
 
 namespace belvedere {
@@ -53,8 +53,8 @@ TEST(StyleCumulus, GiveWayToLevelCloudsTowardsTheHorizon) {
 TEST(StyleCumulus, LeaveThePaintingsShareOfTheSkyClear) {
   const StyleCumulus cumulus(cumulus_sky(), whole_sky, cumulus_parameters());
   double hidden = 0.0;
-  for (int y = 0; y < cumulus_height; ++y)
-    for (int x = 0; x < cumulus_width; ++x) hidden += cumulus.cover(x, y) >= 0.5F ? 1.0 : 0.0;
+  for (const auto [x, y] : test::cells(cumulus_width, cumulus_height))
+    hidden += cumulus.cover(x, y) >= 0.5F ? 1.0 : 0.0;
   EXPECT_NEAR(hidden / (cumulus_width * cumulus_height), 0.7, 0.02);
 }
 
@@ -67,19 +67,18 @@ TEST(StyleCumulus, AreSharpAndLitAboveAndSoftBelow) {
   int upper = 0;
   int lower = 0;
   std::vector<float> down;
-  for (int y = 1; y < cumulus_height; ++y)
-    for (int x = 0; x < cumulus_width; ++x) {
-      const float step = cumulus.cover(x, y) - cumulus.cover(x, y - 1);
-      if (step > 0.05F) {
-        ++upper;
-        steepest_upper += step;
-        light_upper += cumulus.deviate(x, y);
-      } else if (step < -0.05F) {
-        ++lower;
-        steepest_lower -= step;
-        light_lower += cumulus.deviate(x, y);
-      }
+  for (const auto [x, y] : test::cells({0, 1, cumulus_width, cumulus_height})) {
+    const float step = cumulus.cover(x, y) - cumulus.cover(x, y - 1);
+    if (step > 0.05F) {
+      ++upper;
+      steepest_upper += step;
+      light_upper += cumulus.deviate(x, y);
+    } else if (step < -0.05F) {
+      ++lower;
+      steepest_lower -= step;
+      light_lower += cumulus.deviate(x, y);
     }
+  }
   ASSERT_GT(upper, 500);
   ASSERT_GT(lower, 500);
   EXPECT_GT(steepest_upper / upper, 1.3 * steepest_lower / lower);
@@ -89,9 +88,8 @@ TEST(StyleCumulus, AreSharpAndLitAboveAndSoftBelow) {
 TEST(StyleCumulus, LightIsANormalDeviateWhereThereIsCloud) {
   const StyleCumulus cumulus(cumulus_sky(), whole_sky, cumulus_parameters());
   std::vector<double> deviates;
-  for (int y = 0; y < cumulus_height; ++y)
-    for (int x = 0; x < cumulus_width; ++x)
-      if (cumulus.cover(x, y) >= 0.5F) deviates.push_back(cumulus.deviate(x, y));
+  for (const auto [x, y] : test::cells(cumulus_width, cumulus_height))
+    if (cumulus.cover(x, y) >= 0.5F) deviates.push_back(cumulus.deviate(x, y));
   std::sort(deviates.begin(), deviates.end());
   EXPECT_NEAR(deviates[deviates.size() / 2], 0.0, 0.1);
   EXPECT_NEAR(deviates[deviates.size() * 9 / 10], 1.282, 0.15);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/filter.h"
+#include "tests/grids.h"
 #include "tests/renderer/style/styled_sheet.h"
 
 namespace belvedere {
@@ -86,8 +87,8 @@ TEST(StyleGround, CalmLosesGrainAndKeepsBorders) {
   const StyleGround ground = ground_of(sheet, style, plain_parameters());
   const auto grain = [](const Grid<glm::vec3>& lab) {
     double sum = 0.0;
-    for (int y = 205; y < 255; ++y)
-      for (int x = 140; x < 290; ++x) sum += std::abs(lab(x + 1, y).x - lab(x, y).x);
+    for (const auto [x, y] : test::cells({140, 205, 290, 255}))
+      sum += std::abs(lab(x + 1, y).x - lab(x, y).x);
     return sum;
   };
   EXPECT_LT(grain(ground.smoothed), 0.5 * grain(ground.colour));
@@ -121,8 +122,8 @@ TEST(StyleSky, RowsOfMediansLieFromTheTopToTheHorizon) {
   const test::StyledSheet sheet = test::make_styled_sheet();
   Style style = test::make_style();
   style.sky.changes.clear();
-  for (int y = 0; y < 5; ++y)
-    for (int x = 0; x < 3; ++x) style.sky.medians(x, y) = glm::vec3(0.9F - 0.1F * y, 0.0F, 0.0F);
+  for (const auto [x, y] : test::cells(3, 5))
+    style.sky.medians(x, y) = glm::vec3(0.9F - 0.1F * y, 0.0F, 0.0F);
   Grid<glm::vec3> lab(test::sheet_width, test::sheet_height, glm::vec3(0.0F));
   paint_style_sky(lab, style, sheet.guidance, test::make_style_parameters(), {0, 0});
   EXPECT_NEAR(lab(10, 0).x, 0.9, 0.02);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/style/paint_style.h"
+#include "tests/grids.h"
 #include "tests/renderer/style/styled_sheet.h"
 
 namespace belvedere {
@@ -96,10 +97,9 @@ TEST(StyleStrokes, CoverNearlyEverything) {
 TEST(StyleStrokes, StopWhereTheGroundChangesColour) {
   test::StyledSheet sheet = flat_sheet();
   // Black and white meadow: a border of colour within one class.
-  for (int y = 110; y < test::sheet_height; ++y)
-    for (int x = 130; x < test::sheet_width; ++x)
-      if (sheet.guidance.land_cover(x, y) == LandCoverClass::pasture)
-        sheet.render(x, y) = glm::vec3(x < 160 ? 0.1F : 0.9F);
+  for (const auto [x, y] : test::cells({130, 110, test::sheet_width, test::sheet_height}))
+    if (sheet.guidance.land_cover(x, y) == LandCoverClass::pasture)
+      sheet.render(x, y) = glm::vec3(x < 160 ? 0.1F : 0.9F);
   StylePaintParameters parameters = test::make_style_parameters();
   parameters.form_contrast = 1.0;
   parameters.unevenness = 0.0;

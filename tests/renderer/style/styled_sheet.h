@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "renderer/image/srgb.h"
 #include "renderer/style/style.h"
+#include "tests/grids.h"
 
 namespace belvedere::test {
 
@@ -33,21 +34,20 @@ inline StyledSheet make_styled_sheet(int width = sheet_width, int height = sheet
   g.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.0F));
   g.valley_height_m = Grid<float>(width, height, 0.0F);
   sheet.render = Grid<glm::vec3>(width, height, glm::vec3(0.6F, 0.7F, 0.9F));
-  for (int y = sky_end; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const bool far = y < 110;
-      g.depth_m(x, y) = far ? 60000.0F : 12000.0F - 10.0F * static_cast<float>(y);
-      const bool lake = !far && x > 180 && x < 240 && y > 150 && y < 200;
-      g.land_cover(x, y) = far ? rock : lake ? water : x < 130 ? forest : pasture;
-      g.tone(x, y) = 0.5F + 0.4F * static_cast<float>(std::sin(0.11 * x + 0.07 * y));
-      g.fall_line(x, y) = lake ? glm::vec2(0.0F) : glm::vec2(0.6F, 0.8F);
-      g.valley_height_m(x, y) = 2.0F * static_cast<float>(height - y);
-      const auto light =
-          static_cast<float>(0.25 + 0.3 * g.tone(x, y) + 0.1 * random_uniform(5, x, y));
-      sheet.render(x, y) = light * (lake  ? glm::vec3(0.5F, 0.7F, 1.0F)
-                                    : far ? glm::vec3(1.0F, 0.9F, 0.8F)
-                                          : glm::vec3(0.8F, 1.0F, 0.5F));
-    }
+  for (const auto [x, y] : test::cells({0, sky_end, width, height})) {
+    const bool far = y < 110;
+    g.depth_m(x, y) = far ? 60000.0F : 12000.0F - 10.0F * static_cast<float>(y);
+    const bool lake = !far && x > 180 && x < 240 && y > 150 && y < 200;
+    g.land_cover(x, y) = far ? rock : lake ? water : x < 130 ? forest : pasture;
+    g.tone(x, y) = 0.5F + 0.4F * static_cast<float>(std::sin(0.11 * x + 0.07 * y));
+    g.fall_line(x, y) = lake ? glm::vec2(0.0F) : glm::vec2(0.6F, 0.8F);
+    g.valley_height_m(x, y) = 2.0F * static_cast<float>(height - y);
+    const auto light =
+        static_cast<float>(0.25 + 0.3 * g.tone(x, y) + 0.1 * random_uniform(5, x, y));
+    sheet.render(x, y) = light * (lake  ? glm::vec3(0.5F, 0.7F, 1.0F)
+                                  : far ? glm::vec3(1.0F, 0.9F, 0.8F)
+                                        : glm::vec3(0.8F, 1.0F, 0.5F));
+  }
   return sheet;
 }
 

@@ -10,6 +10,7 @@
 #include "base/land_cover_class.h"
 #include "base/random.h"
 #include "renderer/image/srgb.h"
+#include "tests/grids.h"
 
 namespace belvedere::test {
 
@@ -63,14 +64,13 @@ inline Landscape make_landscape(int width = 160, int height = 120) {
                                       {pasture, {0.65F, -0.05F, 0.09F}}}};
   Landscape out{Grid<glm::vec3>(width, height), Grid<glm::vec3>(width, height),
                 Grid<std::uint8_t>(width, height)};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const Band& band = bands[static_cast<std::size_t>(y * 5 / height)];
-      out.mask(x, y) = label_of(band.id);
-      out.lab(x, y) = band.colour;
-      out.lab(x, y).x += 0.04F * static_cast<float>(gaussian_noise(5, x, y, 3.0, 1.5));
-      out.picture(x, y) = glm::clamp(from_oklab(out.lab(x, y)), 0.0F, 1.0F);
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const Band& band = bands[static_cast<std::size_t>(y * 5 / height)];
+    out.mask(x, y) = label_of(band.id);
+    out.lab(x, y) = band.colour;
+    out.lab(x, y).x += 0.04F * static_cast<float>(gaussian_noise(5, x, y, 3.0, 1.5));
+    out.picture(x, y) = glm::clamp(from_oklab(out.lab(x, y)), 0.0F, 1.0F);
+  }
   return out;
 }
 

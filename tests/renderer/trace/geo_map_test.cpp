@@ -9,6 +9,7 @@
 #include "base/math.h"
 #include "base/random.h"
 #include "renderer/trace/guidance.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -68,14 +69,12 @@ std::unique_ptr<SeenGround> make_ground(const DeformParameters& deform_parameter
   LandCover cover;
   cover.classes.transform = frame;
   cover.classes.cells = Grid<LandCoverClass>(220, 260, LandCoverClass::alpine_grass);
-  for (int y = 0; y < 260; ++y)
-    for (int x = 0; x < 220; ++x) {
-      const glm::dvec2 position = frame.to_crs(x, y);
-      raster.cells(x, y) =
-          static_cast<float>(400.0 + relief_m * gaussian_noise(7, position.x - 650000.0,
-                                                               position.y - 5312000.0, 900.0));
-      if (glm::length(position - lake) < 200.0) cover.classes.cells(x, y) = LandCoverClass::water;
-    }
+  for (const auto [x, y] : test::cells(220, 260)) {
+    const glm::dvec2 position = frame.to_crs(x, y);
+    raster.cells(x, y) = static_cast<float>(
+        400.0 + relief_m * gaussian_noise(7, position.x - 650000.0, position.y - 5312000.0, 900.0));
+    if (glm::length(position - lake) < 200.0) cover.classes.cells(x, y) = LandCoverClass::water;
+  }
   auto world = std::make_unique<SeenGround>();
   Dem dem = make_dem(std::move(raster));
   Grid<float> shown = dem.altitude_m;
@@ -109,18 +108,17 @@ TEST(GeoMap, FromPixelToPlaceAndBackIsTheSamePixel) {
   const auto world = make_ground(everything());
   const GeoMap map = world->map();
   int ground = 0;
-  for (int y = 0; y < 160; y += 3)
-    for (int x = 0; x < 240; x += 3) {
-      const glm::dvec2 pixel(x + 0.3, y + 0.7);
-      const auto position = map.to_geo(pixel);
-      if (!position) continue;
-      ++ground;
-      const auto back = map.to_image(position->position);
-      ASSERT_TRUE(back);
-      ASSERT_LT(glm::length(back->pixel - pixel), 0.01) << x << ' ' << y;
-      ASSERT_TRUE(back->visible) << x << ' ' << y;
-      ASSERT_NEAR(back->distance_m, position->distance_m, 0.5);
-    }
+  for (const auto [x, y] : test::cells({0, 0, 240, 160}, 3)) {
+    const glm::dvec2 pixel(x + 0.3, y + 0.7);
+    const auto position = map.to_geo(pixel);
+    if (!position) continue;
+    ++ground;
+    const auto back = map.to_image(position->position);
+    ASSERT_TRUE(back);
+    ASSERT_LT(glm::length(back->pixel - pixel), 0.01) << x << ' ' << y;
+    ASSERT_TRUE(back->visible) << x << ' ' << y;
+    ASSERT_NEAR(back->distance_m, position->distance_m, 0.5);
+  }
   EXPECT_GT(ground, 2000);
   EXPECT_FALSE(map.to_image(glm::dvec2(600000.0, 5316000.0)));
   EXPECT_FALSE(map.to_geo({120.0, -2000.0}));
@@ -132,27 +130,25 @@ TEST(GeoMap, AgreesWithTheGuidanceBuffers) {
   const auto world = make_ground(everything());
   const GeoMap map = world->map();
   const GuidanceBuffers guidance = trace_ground(*world);
-  for (int y = 0; y < 160; y += 5)
-    for (int x = 0; x < 240; x += 5) {
-      if (std::isinf(guidance.depth_m(x, y))) continue;
-      const glm::dvec3 position = glm::dvec3(guidance.position_m(x, y)) + guidance.origin_m;
-      const auto at = map.to_image(glm::dvec2(position));
-      ASSERT_TRUE(at);
-      ASSERT_LT(glm::length(at->pixel - glm::dvec2(x + 0.5, y + 0.5)), 0.1) << x << ' ' << y;
-      ASSERT_TRUE(at->visible);
-      ASSERT_NEAR(map.to_geo({x + 0.5, y + 0.5})->altitude_m,
-                  static_cast<double>(guidance.altitude_m(x, y)), 0.01);
-    }
+  for (const auto [x, y] : test::cells({0, 0, 240, 160}, 5)) {
+    if (std::isinf(guidance.depth_m(x, y))) continue;
+    const glm::dvec3 position = glm::dvec3(guidance.position_m(x, y)) + guidance.origin_m;
+    const auto at = map.to_image(glm::dvec2(position));
+    ASSERT_TRUE(at);
+    ASSERT_LT(glm::length(at->pixel - glm::dvec2(x + 0.5, y + 0.5)), 0.1) << x << ' ' << y;
+    ASSERT_TRUE(at->visible);
+    ASSERT_NEAR(map.to_geo({x + 0.5, y + 0.5})->altitude_m,
+                static_cast<double>(guidance.altitude_m(x, y)), 0.01);
+  }
 }
 
 // Ground east of column 100 was drawn 6 cells farther east, as in a widened valley.
 TEST(GeoMap, PlacesGoAlongWithGroundThatMoved) {
   const auto world = make_ground({});
   Grid<glm::vec2> goes_to(220, 260);
-  for (int y = 0; y < 260; ++y)
-    for (int x = 0; x < 220; ++x)
-      goes_to(x, y).x = 6.F * static_cast<float>(std::clamp((x - 100) / 30.0, 0.0, 1.0) *
-                                                 std::clamp((210 - x) / 30.0, 0.0, 1.0));
+  for (const auto [x, y] : test::cells(220, 260))
+    goes_to(x, y).x = 6.F * static_cast<float>(std::clamp((x - 100) / 30.0, 0.0, 1.0) *
+                                               std::clamp((210 - x) / 30.0, 0.0, 1.0));
   const auto map_of = [&](const Grid<glm::vec2>& moves) {
     return GeoMap(world->terrain.dem->altitude_m, moves, frame, world->deformation, world->surface,
                   *world->camera, *world->tracer);
@@ -202,20 +198,19 @@ TEST(GeoMap, HiddenGroundIsHidden) {
   const GeoMap map = world->map();
   int hidden = 0;
   int seen = 0;
-  for (int y = 5; y < 255; y += 4)
-    for (int x = 5; x < 215; x += 4) {
-      const glm::dvec2 position = frame.to_crs(x + 0.25, y + 0.25);
-      const auto at = map.to_image(position);
-      ASSERT_TRUE(at);
-      if (!at->in_picture) {
-        ASSERT_FALSE(at->visible);
-        continue;
-      }
-      const auto shown = map.to_geo(at->pixel);
-      const bool same = shown && glm::length(shown->position - position) < 1.0;
-      ASSERT_EQ(at->visible, same) << x << ' ' << y;
-      (same ? seen : hidden) += 1;
+  for (const auto [x, y] : test::cells({5, 5, 215, 255}, 4)) {
+    const glm::dvec2 position = frame.to_crs(x + 0.25, y + 0.25);
+    const auto at = map.to_image(position);
+    ASSERT_TRUE(at);
+    if (!at->in_picture) {
+      ASSERT_FALSE(at->visible);
+      continue;
     }
+    const auto shown = map.to_geo(at->pixel);
+    const bool same = shown && glm::length(shown->position - position) < 1.0;
+    ASSERT_EQ(at->visible, same) << x << ' ' << y;
+    (same ? seen : hidden) += 1;
+  }
   EXPECT_GT(hidden, 50);
   EXPECT_GT(seen, 500);
 }
@@ -226,27 +221,26 @@ TEST(Deformation, LandCoverFollowsWhatMoves) {
   // The lake is where the handle moved it: 50° clockwise about the mountain and shifted.
   const glm::dvec2 moved = mountain + glm::dvec2(150.0, 80.0) + turned(lake - mountain, 50.0);
   int water = 0;
-  for (int y = 0; y < 160; ++y)
-    for (int x = 0; x < 240; ++x) {
-      const Ray ray = world->camera->ray({x + 0.5, y + 0.5});
-      const float depth = guidance.depth_m(x, y);
-      if (std::isinf(depth)) continue;
-      const glm::dvec2 shown(ray.origin + ray.direction * static_cast<double>(depth));
-      const double from_lake = glm::length(shown - moved);
-      if (from_lake < 150.0) {
-        ++water;
-        EXPECT_EQ(guidance.land_cover(x, y), LandCoverClass::water);
-      }
-      if (from_lake > 250.0) {
-        EXPECT_EQ(guidance.land_cover(x, y), LandCoverClass::alpine_grass);
-      }
-      // So is the position itself.
-      if (guidance.land_cover(x, y) == LandCoverClass::water) {
-        EXPECT_LT(glm::length(
-                      glm::dvec2(glm::dvec3(guidance.position_m(x, y)) + guidance.origin_m) - lake),
-                  230.0);
-      }
+  for (const auto [x, y] : test::cells(240, 160)) {
+    const Ray ray = world->camera->ray({x + 0.5, y + 0.5});
+    const float depth = guidance.depth_m(x, y);
+    if (std::isinf(depth)) continue;
+    const glm::dvec2 shown(ray.origin + ray.direction * static_cast<double>(depth));
+    const double from_lake = glm::length(shown - moved);
+    if (from_lake < 150.0) {
+      ++water;
+      EXPECT_EQ(guidance.land_cover(x, y), LandCoverClass::water);
     }
+    if (from_lake > 250.0) {
+      EXPECT_EQ(guidance.land_cover(x, y), LandCoverClass::alpine_grass);
+    }
+    // So is the position itself.
+    if (guidance.land_cover(x, y) == LandCoverClass::water) {
+      EXPECT_LT(
+          glm::length(glm::dvec2(glm::dvec3(guidance.position_m(x, y)) + guidance.origin_m) - lake),
+          230.0);
+    }
+  }
   EXPECT_GT(water, 20);
 }
 
@@ -259,8 +253,8 @@ TEST(Deformation, LightFallsOnTheTurnedSlope) {
   p.handles = {{.centre = mountain, .rotate_deg = 50.0, .radius_m = 2500.0, .core_m = 1000.0}};
   const auto world = make_ground(p, 0.0);
   Grid<float>& z = world->terrain.generalized_m;
-  for (int y = 0; y < 260; ++y)
-    for (int x = 0; x < 220; ++x) z(x, y) = static_cast<float>(0.4 * map_cell_m * x);
+  for (const auto [x, y] : test::cells(220, 260))
+    z(x, y) = static_cast<float>(0.4 * map_cell_m * x);
   world->terrain.detail_smooth_m = z;
   world->surface = deform(z, frame, glm::dvec3(viewer, 0.0), world->deformation);
   Tracer tracer(world->surface);

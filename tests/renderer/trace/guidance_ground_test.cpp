@@ -11,6 +11,7 @@
 
 #include "renderer/trace/guidance.h"
 #include "terrain/cover/map_cover.h"
+#include "tests/grids.h"
 #include "tests/renderer/trace/synthetic_ground.h"
 
 namespace belvedere {
@@ -74,9 +75,8 @@ TEST(GuidanceGround, BumpsOfLayersTurnTheNormals) {
   const PixelRect rect{17, 40, 70, 61};
   const GuidanceBuffers part = trace_guidance(world.terrain, world.surface, *world.tracer, *camera,
                                               {}, rect, silent_progress());
-  for (int y = 0; y < rect.height(); ++y)
-    for (int x = 0; x < rect.width(); ++x)
-      ASSERT_EQ(part.normal(x, y), bumpy.normal(rect.x0 + x, rect.y0 + y));
+  for (const auto [x, y] : test::cells(rect))
+    ASSERT_EQ(part.normal(x, y), bumpy.normal(rect.x0 + x, rect.y0 + y));
 }
 
 // Forest has a ragged border with grass, within a cell or two of the map's border; a shore is not

@@ -14,6 +14,7 @@
 
 #include "base/math.h"
 #include "renderer/trace/guidance_rays.h"
+#include "tests/grids.h"
 #include "tests/renderer/trace/synthetic_ground.h"
 
 namespace belvedere {
@@ -163,9 +164,8 @@ TEST_F(WallUnderTwoSuns, PartsAndTilesHaveTheBitsOfTheWhole) {
     const PixelRect part{21, 35, 90, 101};
     const GuidanceBuffers b = trace_guidance(world_.terrain, world_.surface, *world_.tracer,
                                              *camera_, parameters_, part, silent_progress());
-    for (int y = part.y0; y < part.y1; ++y)
-      for (int x = part.x0; x < part.x1; ++x)
-        ASSERT_EQ(b.shadow(x - part.x0, y - part.y0), whole.shadow(x, y)) << x << " " << y;
+    for (const auto [x, y] : test::cells(part))
+      ASSERT_EQ(b.shadow(x - part.x0, y - part.y0), whole.shadow(x, y)) << x << " " << y;
   }
 }
 
@@ -199,29 +199,27 @@ TEST(Guidance, ShadowsWithoutPenumbraAreFoundByTwoRays) {
   int ground = 0;
   int partly = 0;
   const auto positions = disc_positions(64);
-  for (int y = 0; y < b.height(); ++y) {
-    for (int x = 0; x < b.width(); ++x) {
-      const std::size_t i = b.depth_m.index(x, y);
-      if (b.is_sky(i)) continue;
-      ++ground;
-      partly += b.shadow[i] > 0.F && b.shadow[i] < 1.F ? 1 : 0;
-      const Ray ray = camera->ray({x + 0.5, y + 0.5});
-      Hit hit;
-      world.tracer->intersect({&ray, 1}, {&hit, 1});
-      const glm::dvec3 start =
-          ray.origin + ray.direction * hit.distance_m + 0.05 * hit.facet_normal();
-      const glm::dvec3 side =
-          glm::normalize(glm::cross(parameters.sun_direction, glm::dvec3(0, 0, 1)));
-      const glm::dvec3 above = glm::cross(side, parameters.sun_direction);
-      std::vector<Ray> rays;
-      for (const glm::dvec2 p : positions)
-        rays.push_back(
-            {start, glm::normalize(parameters.sun_direction + 0.03 * (side * p.x + above * p.y))});
-      std::vector<std::uint8_t> blocked(rays.size());
-      world.tracer->occluded(rays, 1e9, blocked);
-      const auto free = std::count(blocked.begin(), blocked.end(), 0);
-      difference += std::abs(static_cast<double>(free) / 64.0 - b.shadow[i]);
-    }
+  for (const auto [x, y] : test::cells(b)) {
+    const std::size_t i = b.depth_m.index(x, y);
+    if (b.is_sky(i)) continue;
+    ++ground;
+    partly += b.shadow[i] > 0.F && b.shadow[i] < 1.F ? 1 : 0;
+    const Ray ray = camera->ray({x + 0.5, y + 0.5});
+    Hit hit;
+    world.tracer->intersect({&ray, 1}, {&hit, 1});
+    const glm::dvec3 start =
+        ray.origin + ray.direction * hit.distance_m + 0.05 * hit.facet_normal();
+    const glm::dvec3 side =
+        glm::normalize(glm::cross(parameters.sun_direction, glm::dvec3(0, 0, 1)));
+    const glm::dvec3 above = glm::cross(side, parameters.sun_direction);
+    std::vector<Ray> rays;
+    for (const glm::dvec2 p : positions)
+      rays.push_back(
+          {start, glm::normalize(parameters.sun_direction + 0.03 * (side * p.x + above * p.y))});
+    std::vector<std::uint8_t> blocked(rays.size());
+    world.tracer->occluded(rays, 1e9, blocked);
+    const auto free = std::count(blocked.begin(), blocked.end(), 0);
+    difference += std::abs(static_cast<double>(free) / 64.0 - b.shadow[i]);
   }
   EXPECT_GT(partly, 100);
   EXPECT_LT(difference / ground, 0.012);

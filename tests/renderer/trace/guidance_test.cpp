@@ -21,6 +21,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/trace/guidance_rays.h"
+#include "tests/grids.h"
 #include "tests/renderer/trace/synthetic_ground.h"
 
 namespace belvedere {
@@ -194,19 +195,17 @@ TEST(Guidance, PlacesProjectBackIntoTheirPixels) {
     const auto camera = make_camera(p);
     const GuidanceBuffers b = trace(world, *camera);
     int ground = 0;
-    for (int y = 0; y < b.height(); ++y) {
-      for (int x = 0; x < b.width(); ++x) {
-        const std::size_t i = b.depth_m.index(x, y);
-        if (b.is_sky(i)) continue;
-        ++ground;
-        const glm::dvec3 position = glm::dvec3(b.position_m[i]) + world.surface.origin;
-        const auto at =
-            camera->project(deform_point(position, world.viewer, world.deform_parameters));
-        ASSERT_TRUE(at);
-        // Inside the pixel; a facet differs from the bilinear altitude by up to some decimetres.
-        ASSERT_NEAR(at->x, x + 0.5, 0.6) << projection;
-        ASSERT_NEAR(at->y, y + 0.5, 0.8) << projection;
-      }
+    for (const auto [x, y] : test::cells(b)) {
+      const std::size_t i = b.depth_m.index(x, y);
+      if (b.is_sky(i)) continue;
+      ++ground;
+      const glm::dvec3 position = glm::dvec3(b.position_m[i]) + world.surface.origin;
+      const auto at =
+          camera->project(deform_point(position, world.viewer, world.deform_parameters));
+      ASSERT_TRUE(at);
+      // Inside the pixel; a facet differs from the bilinear altitude by up to some decimetres.
+      ASSERT_NEAR(at->x, x + 0.5, 0.6) << projection;
+      ASSERT_NEAR(at->y, y + 0.5, 0.8) << projection;
     }
     EXPECT_GT(ground, 5000) << projection;
   }
@@ -303,11 +302,9 @@ void expect_same(const Grid<T>& whole, const Grid<T>& part, PixelRect region, Pi
                  std::string_view channel) {
   ASSERT_EQ(part.width(), region.width()) << channel;
   ASSERT_EQ(part.height(), region.height()) << channel;
-  for (int y = keep.y0; y < keep.y1; ++y) {
-    for (int x = keep.x0; x < keep.x1; ++x) {
-      ASSERT_EQ(std::memcmp(&whole(x, y), &part(x - region.x0, y - region.y0), sizeof(T)), 0)
-          << channel << " at " << x << ' ' << y;
-    }
+  for (const auto [x, y] : test::cells(keep)) {
+    ASSERT_EQ(std::memcmp(&whole(x, y), &part(x - region.x0, y - region.y0), sizeof(T)), 0)
+        << channel << " at " << x << ' ' << y;
   }
 }
 
@@ -395,14 +392,12 @@ constexpr float sky_m = std::numeric_limits<float>::infinity();
 // horizon at row `horizon`; 1000 pixels of focal length; columns from -width/2.
 Grid<float> plain(int width, int height, double horizon) {
   Grid<float> depth(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double down = (y + 0.5 - horizon) / 1000.0;
-      const double side = (x + 0.5 - width / 2.0) / 1000.0;
-      depth(x, y) =
-          down > 0.0 ? static_cast<float>(500.0 / down * std::sqrt(1.0 + down * down + side * side))
-                     : sky_m;
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const double down = (y + 0.5 - horizon) / 1000.0;
+    const double side = (x + 0.5 - width / 2.0) / 1000.0;
+    depth(x, y) =
+        down > 0.0 ? static_cast<float>(500.0 / down * std::sqrt(1.0 + down * down + side * side))
+                   : sky_m;
   }
   return depth;
 }
@@ -412,31 +407,24 @@ TEST(Silhouettes, AGrazingPlaneHasNone) {
   const Grid<float> depth = plain(80, 60, -0.01);
   EXPECT_GT(depth(40, 0) / depth(40, 1), 2.5F);
   const Grid<float> found = find_silhouettes(depth);
-  for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 80; ++x) ASSERT_LT(found(x, y), 0.01F) << x << ' ' << y;
-  }
+  for (const auto [x, y] : test::cells(80, 60)) ASSERT_LT(found(x, y), 0.01F) << x << ' ' << y;
 }
 
 TEST(Silhouettes, ATiltedWallHasNone) {
   // A wall seen almost edge-on, its inverse depth linear along x and y.
   Grid<float> depth(100, 30);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 100; ++x)
-      depth(x, y) = static_cast<float>(1.0 / (1e-5 + 2e-6 * x + 1e-6 * y));
-  }
+  for (const auto [x, y] : test::cells(100, 30))
+    depth(x, y) = static_cast<float>(1.0 / (1e-5 + 2e-6 * x + 1e-6 * y));
   const Grid<float> found = find_silhouettes(depth);
   EXPECT_LT(*std::max_element(found.begin(), found.end()), 0.01F);
 }
 
 TEST(Silhouettes, AStepMarksItsNearSideOnly) {
   Grid<float> depth(20, 20, 2000.F);
-  for (int y = 8; y < 20; ++y) {
-    for (int x = 0; x < 20; ++x) depth(x, y) = 1000.F;
-  }
+  for (const auto [x, y] : test::cells({0, 8, 20, 20})) depth(x, y) = 1000.F;
   const Grid<float> found = find_silhouettes(depth);
-  for (int y = 0; y < 20; ++y) {
-    for (int x = 0; x < 20; ++x) EXPECT_EQ(found(x, y), y == 8 ? 1.F : 0.F) << x << ' ' << y;
-  }
+  for (const auto [x, y] : test::cells(20, 20))
+    EXPECT_EQ(found(x, y), y == 8 ? 1.F : 0.F) << x << ' ' << y;
 }
 
 TEST(Silhouettes, AreFoundTowardsEachOfTheFourSides) {
@@ -447,10 +435,8 @@ TEST(Silhouettes, AreFoundTowardsEachOfTheFourSides) {
   EXPECT_EQ(found(4, 4), 1.F);
   for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
     Grid<float> half(9, 9, 5000.F);
-    for (int y = 0; y < 9; ++y) {
-      for (int x = 0; x < 9; ++x) {
-        if ((x - 4) * dx + (y - 4) * dy <= 0) half(x, y) = 3000.F;
-      }
+    for (const auto [x, y] : test::cells(9, 9)) {
+      if ((x - 4) * dx + (y - 4) * dy <= 0) half(x, y) = 3000.F;
     }
     EXPECT_EQ(find_silhouettes(half)(4, 4), 1.F) << dx << ' ' << dy;
   }
@@ -459,9 +445,7 @@ TEST(Silhouettes, AreFoundTowardsEachOfTheFourSides) {
 TEST(Silhouettes, StrengthIsFourteenTimesTheLogRatio) {
   for (const double ratio : {1.01, 1.03, 1.06, 1.0742, 1.2}) {
     Grid<float> depth(10, 10, 1000.F);
-    for (int y = 0; y < 5; ++y) {
-      for (int x = 0; x < 10; ++x) depth(x, y) = static_cast<float>(1000.0 * ratio);
-    }
+    for (const auto [x, y] : test::cells(10, 5)) depth(x, y) = static_cast<float>(1000.0 * ratio);
     EXPECT_NEAR(find_silhouettes(depth)(5, 5), std::min(1.0, 14.0 * std::log(ratio)), 1e-4)
         << ratio;
   }
@@ -483,9 +467,8 @@ TEST(Silhouettes, AHillAgainstAGrazingPlainIsOne) {
   // The plain again, with a near hill in front of its lower half, rounded so that its crest is
   // grazing as well.
   Grid<float> depth = plain(60, 60, 5.0);
-  for (int y = 30; y < 60; ++y) {
-    for (int x = 0; x < 60; ++x) depth(x, y) = 6000.F + 400.F / static_cast<float>(y - 29);
-  }
+  for (const auto [x, y] : test::cells({0, 30, 60, 60}))
+    depth(x, y) = 6000.F + 400.F / static_cast<float>(y - 29);
   const Grid<float> found = find_silhouettes(depth);
   for (int x = 0; x < 60; ++x) {
     EXPECT_GT(found(x, 30), 0.99F) << x;
@@ -498,20 +481,16 @@ TEST(Silhouettes, TheEdgeOfAPlateauIsNone) {
   // A steep face whose top passes into grazing level ground: a crease in the surface, nothing is
   // hidden.
   Grid<float> depth = plain(40, 60, 10.0);
-  for (int y = 30; y < 60; ++y) {
-    for (int x = 0; x < 40; ++x)
-      depth(x, y) = depth(x, 29) * (1.F - 0.002F * static_cast<float>(y - 29));
-  }
+  for (const auto [x, y] : test::cells({0, 30, 40, 60}))
+    depth(x, y) = depth(x, 29) * (1.F - 0.002F * static_cast<float>(y - 29));
   const Grid<float> found = find_silhouettes(depth);
   for (int x = 0; x < 40; ++x) EXPECT_LT(found(x, 30), 0.05F) << x;
 }
 
 TEST(Silhouettes, SameBitsForAnyThreadCount) {
   Grid<float> depth(150, 120);
-  for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 150; ++x)
-      depth(x, y) = static_cast<float>(1000.0 + 200.0 * random_uniform(3, x, y));
-  }
+  for (const auto [x, y] : test::cells(150, 120))
+    depth(x, y) = static_cast<float>(1000.0 + 200.0 * random_uniform(3, x, y));
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     return find_silhouettes(depth);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "renderer/world/world.h"
+#include "tests/grids.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -51,8 +52,8 @@ TEST(ReliefSketch, LevelGroundIsLighterTheHigherTheSun) {
 
 TEST(ReliefSketch, SlopesTowardsTheSunAreLighter) {
   Grid<float> roof = level();  // its ridge runs north
-  for (int y = 0; y < 61; ++y)
-    for (int x = 0; x < 61; ++x) roof(x, y) = 1500.F - 40.F * static_cast<float>(std::abs(x - 30));
+  for (const auto [x, y] : test::cells(61, 61))
+    roof(x, y) = 1500.F - 40.F * static_cast<float>(std::abs(x - 30));
   const Grid<glm::vec3> picture = Sketch(roof).draw({0.7, 0.0, 0.7});
   EXPECT_GT(picture(40, 30).x, picture(20, 30).x + 0.2F);
 }
@@ -68,8 +69,7 @@ TEST(ReliefSketch, PalesWithDistanceTowardsTheSky) {
 TEST(ReliefSketch, MarkedGroundIsYellowGreenAndTheRestAsBefore) {
   const Sketch sketch(level());
   Grid<std::uint8_t> west(61, 61, 0);
-  for (int y = 0; y < 61; ++y)
-    for (int x = 0; x < 30; ++x) west(x, y) = 1;
+  for (const auto [x, y] : test::cells(30, 61)) west(x, y) = 1;
   const Grid<glm::vec3> plain = sketch.draw(overhead);
   const Grid<glm::vec3> marked = sketch.draw(overhead, west);
   EXPECT_GT(marked(15, 30).y, marked(15, 30).z + 0.2F);

@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "base/random.h"
 #include "renderer/trace/guidance.h"
+#include "tests/grids.h"
 
 // Ground as functions of position, and its guidance, for tests with a known answer.
 namespace belvedere::test {
@@ -34,11 +35,9 @@ SyntheticWorld make_world(int width, int height, Altitude&& altitude, Cover&& co
   LandCover land_cover;
   land_cover.classes.transform = raster.transform;
   land_cover.classes.cells = Grid<LandCoverClass>(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      raster.cells(x, y) = static_cast<float>(altitude(x * cell, y * cell));
-      land_cover.classes.cells(x, y) = cover(x * cell, y * cell);
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    raster.cells(x, y) = static_cast<float>(altitude(x * cell, y * cell));
+    land_cover.classes.cells(x, y) = cover(x * cell, y * cell);
   }
   SyntheticWorld world;
   Dem dem = make_dem(std::move(raster));

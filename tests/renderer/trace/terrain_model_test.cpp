@@ -13,6 +13,7 @@
 #include "renderer/paint/terrain_end.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/guidance_ground.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -24,8 +25,8 @@ TerrainModel model_of(int width, int height, Altitude&& altitude) {
   Raster<float> raster;
   raster.transform = {650000.0, 5320000.0, cell_m, cell_m};
   raster.cells = Grid<float>(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) raster.cells(x, y) = static_cast<float>(altitude(x, y));
+  for (const auto [x, y] : test::cells(width, height))
+    raster.cells(x, y) = static_cast<float>(altitude(x, y));
   LandCover land_cover;
   land_cover.classes.transform = raster.transform;
   land_cover.classes.cells = Grid<LandCoverClass>(width, height, LandCoverClass::alpine_grass);
@@ -48,9 +49,8 @@ TEST(TerrainModel, FlowOnATiltedPlaneIsTheLogarithmOfTheStripAbove) {
   // Falls to the south: each column of cells drains by itself, and row y has y + 1 cells above it
   // and in it.
   const TerrainModel model = model_of(9, 60, [](int, int y) { return 500.0 - 3.0 * y; });
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 9; ++x)
-      EXPECT_NEAR(model.flow(x, y), std::log10(cell_m * cell_m * (y + 1)), 1e-5) << x << ' ' << y;
+  for (const auto [x, y] : test::cells(9, 60))
+    EXPECT_NEAR(model.flow(x, y), std::log10(cell_m * cell_m * (y + 1)), 1e-5) << x << ' ' << y;
 }
 
 TEST(TerrainModel, FlowGathersInAValley) {
@@ -95,8 +95,8 @@ Dem dem_of(int width, int height, Altitude&& altitude) {
   Raster<float> raster;
   raster.transform = {650000.0, 5320000.0, ring_cell_m, ring_cell_m};
   raster.cells = Grid<float>(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) raster.cells(x, y) = static_cast<float>(altitude(x, y));
+  for (const auto [x, y] : test::cells(width, height))
+    raster.cells(x, y) = static_cast<float>(altitude(x, y));
   return make_dem(std::move(raster));
 }
 
@@ -122,11 +122,10 @@ TEST(GroundSurroundings, TheRimIsTheBorderAndVoidsThatReachIt) {
   Dem dem = dem_of(40, 30, [](int x, int y) { return 500.0 + x + 2.0 * y; });
   const LandCover cover = cover_of(dem, LandCoverClass::pasture);
   const GroundSurroundings whole = find_surroundings(dem, cover);
-  for (int y = 0; y < 30; ++y)
-    for (int x = 0; x < 40; ++x)
-      EXPECT_NEAR(whole.rim_m(x, y),
-                  ring_cell_m * std::min(std::min(x, 39 - x), std::min(y, 29 - y)), 1e-3)
-          << x << ' ' << y;
+  for (const auto [x, y] : test::cells(40, 30))
+    EXPECT_NEAR(whole.rim_m(x, y), ring_cell_m * std::min(std::min(x, 39 - x), std::min(y, 29 - y)),
+                1e-3)
+        << x << ' ' << y;
   dem.filled = Grid<std::uint8_t>(40, 30, 0);
   dem.filled(20, 15) = 1;                              // a void inside known terrain
   for (int x = 0; x <= 9; ++x) dem.filled(x, 14) = 1;  // a void that reaches the border
@@ -160,13 +159,11 @@ Dem hills_with_mountain(double height_m, int summit) {
   Raster<float> raster;
   raster.transform = {460000.0, 3110000.0, rim_cell_m, rim_cell_m};
   raster.cells = Grid<float>(rim_posts, rim_posts);
-  for (int y = 0; y < rim_posts; ++y)
-    for (int x = 0; x < rim_posts; ++x) {
-      const double hills = 200.0 * std::sin(0.11 * x + 0.05 * y);
-      const double off_m = rim_cell_m * std::hypot(x - 150, y - summit);
-      raster.cells(x, y) =
-          static_cast<float>(4500.0 + hills + height_m * std::exp(-off_m / 1500.0));
-    }
+  for (const auto [x, y] : test::cells(rim_posts, rim_posts)) {
+    const double hills = 200.0 * std::sin(0.11 * x + 0.05 * y);
+    const double off_m = rim_cell_m * std::hypot(x - 150, y - summit);
+    raster.cells(x, y) = static_cast<float>(4500.0 + hills + height_m * std::exp(-off_m / 1500.0));
+  }
   return make_dem(std::move(raster));
 }
 
@@ -179,13 +176,12 @@ float kept_of(float rim_m, double fade_m) {
 TEST(TerrainRim, IsTheDistanceToTheEdgeWhereNothingStandsOut) {
   const Dem dem = hills_with_mountain(0.0, 10);
   const Grid<float> rim = rim_distance(dem);
-  for (int y = 0; y < rim_posts; ++y)
-    for (int x = 0; x < rim_posts; ++x) {
-      const int last = rim_posts - 1;
-      ASSERT_NEAR(rim(x, y), rim_cell_m * std::min(std::min(x, last - x), std::min(y, last - y)),
-                  0.01)
-          << x << ' ' << y;
-    }
+  for (const auto [x, y] : test::cells(rim_posts, rim_posts)) {
+    const int last = rim_posts - 1;
+    ASSERT_NEAR(rim(x, y), rim_cell_m * std::min(std::min(x, last - x), std::min(y, last - y)),
+                0.01)
+        << x << ' ' << y;
+  }
 }
 
 TEST(TerrainRim, ATallMountainAtTheEdgeKeepsItsColour) {
@@ -234,13 +230,12 @@ Map make_map(int size, const std::function<double(double, double)>& altitude,
   map.dem.transform = {1000.0, 5000.0, 30.0, 30.0};
   map.cover.classes.cells = Grid<LandCoverClass>(size, size);
   map.cover.classes.transform = map.dem.transform;
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      const double e = 30.0 * (x - size / 2);
-      const double n = -30.0 * (y - size / 2);
-      map.dem.altitude_m(x, y) = static_cast<float>(altitude(e, n));
-      map.cover.classes.cells(x, y) = id(e, n);
-    }
+  for (const auto [x, y] : test::cells(size, size)) {
+    const double e = 30.0 * (x - size / 2);
+    const double n = -30.0 * (y - size / 2);
+    map.dem.altitude_m(x, y) = static_cast<float>(altitude(e, n));
+    map.cover.classes.cells(x, y) = id(e, n);
+  }
   return map;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "terrain/deform/deform.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -15,10 +16,9 @@ namespace {
 struct Slope {
   Slope() {
     surface.vertices_m = Grid<glm::vec3>(5, 4);
-    for (int y = 0; y < 4; ++y)
-      for (int x = 0; x < 5; ++x)
-        surface.vertices_m(x, y) = {static_cast<float>(x), -static_cast<float>(y),
-                                    0.5F * static_cast<float>(x)};
+    for (const auto [x, y] : test::cells(5, 4))
+      surface.vertices_m(x, y) = {static_cast<float>(x), -static_cast<float>(y),
+                                  0.5F * static_cast<float>(x)};
     parts = make_traced_parts(surface, 64);
   }
   bool down_at(double x, double y, glm::vec2 in_tile, Hit& hit) const {
@@ -65,8 +65,9 @@ TEST(TracedPart, TilesCoverEachCellOnce) {
     const std::vector<TracedPart> parts = make_traced_parts(slope.surface, side);
     for (const GridTile& tile : parts[0].tiles) {
       EXPECT_LE(std::max(tile.cells_x, tile.cells_y), side);
-      for (int y = tile.y0; y < tile.y0 + tile.cells_y; ++y)
-        for (int x = tile.x0; x < tile.x0 + tile.cells_x; ++x) ++seen(x, y);
+      for (const auto [x, y] :
+           test::cells({tile.x0, tile.y0, tile.x0 + tile.cells_x, tile.y0 + tile.cells_y}))
+        ++seen(x, y);
     }
     EXPECT_EQ(seen, Grid<int>(4, 3, 1));
   }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/terrain/shape/heightfield.h"
 
@@ -29,11 +29,10 @@ DeformedSurface make_surface(int width, int height, F&& altitude) {
   DeformedSurface surface;
   surface.origin = {692000.0, 5302000.0, 0.0};
   surface.vertices_m = Grid<glm::vec3>(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      surface.vertices_m(x, y) = {static_cast<float>(x * mesh_cell_m),
-                                  static_cast<float>(-y * mesh_cell_m),
-                                  static_cast<float>(altitude(x * mesh_cell_m, -y * mesh_cell_m))};
+  for (const auto [x, y] : test::cells(width, height))
+    surface.vertices_m(x, y) = {static_cast<float>(x * mesh_cell_m),
+                                static_cast<float>(-y * mesh_cell_m),
+                                static_cast<float>(altitude(x * mesh_cell_m, -y * mesh_cell_m))};
   return surface;
 }
 
@@ -92,9 +91,8 @@ std::vector<Ray> view_rays(const DeformedSurface& surface, int width, int height
   p.pitch_deg = pitch_deg;
   const auto camera = make_camera(p);
   std::vector<Ray> rays;
-  for (int y = 0; y < height; y += 4)
-    for (int x = 0; x < width; x += 4)
-      for (int k = 0; k < 16; ++k) rays.push_back(camera->ray({x + k % 4 + 0.5, y + k / 4 + 0.5}));
+  for (const auto [x, y] : test::cells({0, 0, width, height}, 4))
+    for (int k = 0; k < 16; ++k) rays.push_back(camera->ray({x + k % 4 + 0.5, y + k / 4 + 0.5}));
   return rays;
 }
 
@@ -137,17 +135,15 @@ TEST(Tracer, EveryPostIsHitInEveryTileAndTheLast) {
     const DeformedSurface surface =
         make_surface(size, size, [](double x, double y) { return rough_altitude(x, y); });
     const Tracer tracer(surface);
-    for (int y = 0; y < size; ++y) {
-      for (int x = 0; x < size; ++x) {
-        // Just inside: the terrain's own edge may be missed.
-        const double px = std::clamp(x * mesh_cell_m, 1e-3, (size - 1) * mesh_cell_m - 1e-3);
-        const double py = std::clamp(y * mesh_cell_m, 1e-3, (size - 1) * mesh_cell_m - 1e-3);
-        const Hit hit = intersect(tracer, ray_from({px, -py, 20000.0}, {0.0, 0.0, -1.0}));
-        ASSERT_TRUE(hit.found) << size << ": " << x << ' ' << y;
-        ASSERT_NEAR(hit.distance_m, 20000.0 - surface.vertices_m(x, y).z, 0.02);
-        ASSERT_NEAR(hit.column, x, 1e-3);
-        ASSERT_NEAR(hit.row, y, 1e-3);
-      }
+    for (const auto [x, y] : test::cells(size, size)) {
+      // Just inside: the terrain's own edge may be missed.
+      const double px = std::clamp(x * mesh_cell_m, 1e-3, (size - 1) * mesh_cell_m - 1e-3);
+      const double py = std::clamp(y * mesh_cell_m, 1e-3, (size - 1) * mesh_cell_m - 1e-3);
+      const Hit hit = intersect(tracer, ray_from({px, -py, 20000.0}, {0.0, 0.0, -1.0}));
+      ASSERT_TRUE(hit.found) << size << ": " << x << ' ' << y;
+      ASSERT_NEAR(hit.distance_m, 20000.0 - surface.vertices_m(x, y).z, 0.02);
+      ASSERT_NEAR(hit.column, x, 1e-3);
+      ASSERT_NEAR(hit.row, y, 1e-3);
     }
   }
 }

@@ -13,6 +13,7 @@
 #include "terrain/generalize/mask.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -91,11 +92,9 @@ class ViewedGround : public testing::Test {
   void SetUp() override {
     ground_ = {
         Grid<float>(160, 200), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
-    for (int y = 0; y < 200; ++y)
-      for (int x = 0; x < 160; ++x)
-        ground_.cells(x, y) =
-            static_cast<float>(900.0 + 3.0 * x + 20.0 * std::sin(x * 1.9) * std::cos(y * 1.3) +
-                               30.0 * std::sin(y * .4));
+    for (const auto [x, y] : test::cells(160, 200))
+      ground_.cells(x, y) = static_cast<float>(
+          900.0 + 3.0 * x + 20.0 * std::sin(x * 1.9) * std::cos(y * 1.3) + 30.0 * std::sin(y * .4));
     write_raster(folder_ / "dem.tif", ground_);
   }
   LoadedScene scene(const std::string& settings,
@@ -166,18 +165,17 @@ TEST_F(ViewedGround, NoStepWithDistanceIsMuchLargerThanALinearOne) {
   int checked = 0;
   double min = 1.0;
   double max = 0.0;
-  for (int y = 1; y < 200; ++y)
-    for (int x = 0; x < 160; ++x) {
-      if (std::abs(band(x, y)) < 3.F || std::abs(band(x, y - 1)) < 3.F) continue;
-      EXPECT_LE(std::abs(share(x, y) - share(x, y - 1)), 8.0 / 7.0 * 100.0 / (far - near) + 2e-4)
-          << x << ' ' << y;
-      const glm::dvec2 position = ground_.transform.to_crs(x, y);
-      const double distance = std::hypot(position.x - 508000.0, position.y - 5190000.0);
-      EXPECT_NEAR(share(x, y), foreground_share(distance, near, far), 2e-4) << x << ' ' << y;
-      min = std::min(min, share(x, y));
-      max = std::max(max, share(x, y));
-      ++checked;
-    }
+  for (const auto [x, y] : test::cells({0, 1, 160, 200})) {
+    if (std::abs(band(x, y)) < 3.F || std::abs(band(x, y - 1)) < 3.F) continue;
+    EXPECT_LE(std::abs(share(x, y) - share(x, y - 1)), 8.0 / 7.0 * 100.0 / (far - near) + 2e-4)
+        << x << ' ' << y;
+    const glm::dvec2 position = ground_.transform.to_crs(x, y);
+    const double distance = std::hypot(position.x - 508000.0, position.y - 5190000.0);
+    EXPECT_NEAR(share(x, y), foreground_share(distance, near, far), 2e-4) << x << ' ' << y;
+    min = std::min(min, share(x, y));
+    max = std::max(max, share(x, y));
+    ++checked;
+  }
   EXPECT_GT(checked, 5000);
   EXPECT_LT(min, 0.05);
   EXPECT_GT(max, 0.99);
@@ -192,23 +190,21 @@ TEST_F(ViewedGround, TwoViewsOfOneSceneHaveEachItsOwn) {
   const Grid<float> all_far =
       seen(scene("keep_lakes = false\nforeground = [1, 0.5, 0]\nbackground = [1, 0.5, 0]\n"));
   EXPECT_GT(largest_difference(from_south_west, from_north_east), 15.0);
-  for (int y = 0; y < 15; ++y)
-    for (int x = 0; x < 15; ++x) {
-      // Cells at the south-western and at the north-eastern corner: unchanged near the viewer, only
-      // background at the other.
-      const glm::ivec2 west(x, 199 - y);
-      const glm::ivec2 east(159 - x, y);
-      ASSERT_EQ(from_south_west(west.x, west.y), ground_.cells(west.x, west.y));
-      ASSERT_EQ(from_north_east(east.x, east.y), ground_.cells(east.x, east.y));
-      ASSERT_NEAR(from_south_west(east.x, east.y), all_far(east.x, east.y), 1e-3);
-      ASSERT_NEAR(from_north_east(west.x, west.y), all_far(west.x, west.y), 1e-3);
-    }
+  for (const auto [x, y] : test::cells(15, 15)) {
+    // Cells at the south-western and at the north-eastern corner: unchanged near the viewer, only
+    // background at the other.
+    const glm::ivec2 west(x, 199 - y);
+    const glm::ivec2 east(159 - x, y);
+    ASSERT_EQ(from_south_west(west.x, west.y), ground_.cells(west.x, west.y));
+    ASSERT_EQ(from_north_east(east.x, east.y), ground_.cells(east.x, east.y));
+    ASSERT_NEAR(from_south_west(east.x, east.y), all_far(east.x, east.y), 1e-3);
+    ASSERT_NEAR(from_north_east(west.x, west.y), all_far(west.x, west.y), 1e-3);
+  }
 }
 
 // Stripes along the view: their change divided by its largest is the background's share.
 TEST_F(ViewedGround, TheShareFallsWithDistanceWithoutAJump) {
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 160; ++x) ground_.cells(x, y) = x % 2 == 0 ? 1050.F : 950.F;
+  for (const auto [x, y] : test::cells(160, 200)) ground_.cells(x, y) = x % 2 == 0 ? 1050.F : 950.F;
   write_raster(folder_ / "dem.tif", ground_);
   const std::string bands = "keep_lakes = false\nforeground = [1, 1]\nbackground = [1, 0]\n";
   const std::string view = "position = [508000, 5175000]";  // 5 km south of the rim
@@ -239,14 +235,12 @@ TEST_F(ViewedGround, TheShareFallsWithDistanceWithoutAJump) {
 // Operators of every kind leave the ground where the scene's mask is 0, and the base reaches it.
 TEST_F(ViewedGround, WhereTheMaskIsZeroNothingChangesWhateverActs) {
   // A valley that falls to the south.
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 160; ++x)
-      ground_.cells(x, y) +=
-          12.F * static_cast<float>(std::abs(x - 80)) + 2.F * static_cast<float>(200 - y);
+  for (const auto [x, y] : test::cells(160, 200))
+    ground_.cells(x, y) +=
+        12.F * static_cast<float>(std::abs(x - 80)) + 2.F * static_cast<float>(200 - y);
   write_raster(folder_ / "dem.tif", ground_);
   Raster<float> mask = ground_;
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 160; ++x) mask.cells(x, y) = y < 90 ? 0.F : 1.F;
+  for (const auto [x, y] : test::cells(160, 200)) mask.cells(x, y) = y < 90 ? 0.F : 1.F;
   write_raster(folder_ / "mask.tif", mask);
   for (const char* what :
        {"line_integral = true\n", "widen_valleys_m = 600\n", "base = 1.2\n",
@@ -257,13 +251,12 @@ TEST_F(ViewedGround, WhereTheMaskIsZeroNothingChangesWhateverActs) {
     const Grid<float> all = seen(scene(settings));
     const Grid<float> out = seen(scene(settings + "mask = \"mask.tif\"\n"));
     double changed = 0.0;
-    for (int y = 0; y < 200; ++y)
-      for (int x = 0; x < 160; ++x) {
-        if (y < 90) {
-          ASSERT_EQ(out(x, y), ground_.cells(x, y)) << x << ' ' << y;
-        }
-        changed = std::max(changed, static_cast<double>(std::abs(all(x, y) - ground_.cells(x, y))));
+    for (const auto [x, y] : test::cells(160, 200)) {
+      if (y < 90) {
+        ASSERT_EQ(out(x, y), ground_.cells(x, y)) << x << ' ' << y;
       }
+      changed = std::max(changed, static_cast<double>(std::abs(all(x, y) - ground_.cells(x, y))));
+    }
     EXPECT_GT(changed, 20.0);
     // Bands as wide as the distance to the mask's border still know of it.
     EXPECT_LT(std::abs(out(80, 190) - all(80, 190)), 1.0 + 0.01 * changed);

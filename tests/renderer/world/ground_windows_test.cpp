@@ -22,6 +22,7 @@
 #include "terrain/io/raster_io.h"
 #include "terrain/synthetic/synthetic.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/notes.h"
 
 namespace belvedere {
@@ -169,23 +170,22 @@ TEST_F(GroundWindows, ShowWhatTheWholeShows) {
   int same_class = 0;
   int ground = 0;
   int skies_apart = 0;
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 320; ++x) {
-      if (is_sky(a, x, y) != is_sky(b, x, y)) ++skies_apart;
-      if (is_sky(a, x, y) || is_sky(b, x, y)) continue;
-      const Ray ray = parts.camera->ray({x + 0.5, y + 0.5});
-      Hit hit;
-      parts.tracer.intersect({&ray, 1}, {&hit, 1});
-      ++pixels[static_cast<std::size_t>(hit.window)];
-      // Behind an edge each may see another slope: only identical positions are compared.
-      const double apart = std::abs(a.depth_m(x, y) - b.depth_m(x, y)) / a.depth_m(x, y);
-      ++ground;
-      depth.push_back(apart);
-      if (apart > 0.02) continue;
-      altitude.push_back(std::abs(a.altitude_m(x, y) - b.altitude_m(x, y)));
-      slope.push_back(std::abs(a.slope_deg(x, y) - b.slope_deg(x, y)));
-      same_class += a.land_cover(x, y) == b.land_cover(x, y) ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(320, 200)) {
+    if (is_sky(a, x, y) != is_sky(b, x, y)) ++skies_apart;
+    if (is_sky(a, x, y) || is_sky(b, x, y)) continue;
+    const Ray ray = parts.camera->ray({x + 0.5, y + 0.5});
+    Hit hit;
+    parts.tracer.intersect({&ray, 1}, {&hit, 1});
+    ++pixels[static_cast<std::size_t>(hit.window)];
+    // Behind an edge each may see another slope: only identical positions are compared.
+    const double apart = std::abs(a.depth_m(x, y) - b.depth_m(x, y)) / a.depth_m(x, y);
+    ++ground;
+    depth.push_back(apart);
+    if (apart > 0.02) continue;
+    altitude.push_back(std::abs(a.altitude_m(x, y) - b.altitude_m(x, y)));
+    slope.push_back(std::abs(a.slope_deg(x, y) - b.slope_deg(x, y)));
+    same_class += a.land_cover(x, y) == b.land_cover(x, y) ? 1 : 0;
+  }
   EXPECT_GT(pixels[2], 5000) << "the finest window is in the picture";
   EXPECT_GT(pixels[1], 1000);
   const auto part = [](std::vector<double> values, double share) {
@@ -285,8 +285,7 @@ TEST_F(GroundWindows, RiversAreAsLargeAsTheWholeKnowsThem) {
   const TerrainWindow& finest = parts.terrain.windows.back();
   const auto largest = [](const Grid<float>& flow, const PixelRect& rect) {
     float max = 0.F;
-    for (int y = rect.y0; y < rect.y1; ++y)
-      for (int x = rect.x0; x < rect.x1; ++x) max = std::max(max, flow(x, y));
+    for (const auto [x, y] : test::cells(rect)) max = std::max(max, flow(x, y));
     return max;
   };
   const glm::dvec2 first = finest.ground.dem->transform.to_crs(finest.part.x0, finest.part.y0);
@@ -338,16 +337,15 @@ Agreement agreement_of(const World& parts, std::size_t index) {
   };
   std::array<double, 2> same{};
   std::array<double, 2> all{};
-  for (int y = 0; y < window.part.height(); ++y)
-    for (int x = 0; x < window.part.width(); ++x) {
-      const int from_edge =
-          std::min({x, y, window.part.width() - 1 - x, window.part.height() - 1 - y});
-      const std::size_t where = from_edge < 6 ? 0 : 1;
-      const glm::dvec2 position =
-          window.ground.dem->transform.to_crs(window.part.x0 + x, window.part.y0 + y);
-      same[where] += class_at(fine, position) == class_at(coarser, position) ? 1.0 : 0.0;
-      all[where] += 1.0;
-    }
+  for (const auto [x, y] : test::cells(window.part)) {
+    const int from_edge =
+        std::min({x, y, window.part.width() - 1 - x, window.part.height() - 1 - y});
+    const std::size_t where = from_edge < 6 ? 0 : 1;
+    const glm::dvec2 position =
+        window.ground.dem->transform.to_crs(window.part.x0 + x, window.part.y0 + y);
+    same[where] += class_at(fine, position) == class_at(coarser, position) ? 1.0 : 0.0;
+    all[where] += 1.0;
+  }
   return {same[0] / all[0], same[1] / all[1]};
 }
 
@@ -360,14 +358,13 @@ TEST_F(GroundWindowsByTheSea, HaveTheWholesSeaAndClimate) {
   const GuidanceBuffers b = guidance_of(parts);
   int ground = 0;
   int same = 0;
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 320; ++x) {
-      if (is_sky(a, x, y) || is_sky(b, x, y) ||
-          std::abs(a.depth_m(x, y) - b.depth_m(x, y)) > 0.02 * a.depth_m(x, y))
-        continue;
-      ++ground;
-      same += a.land_cover(x, y) == b.land_cover(x, y) ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(320, 200)) {
+    if (is_sky(a, x, y) || is_sky(b, x, y) ||
+        std::abs(a.depth_m(x, y) - b.depth_m(x, y)) > 0.02 * a.depth_m(x, y))
+      continue;
+    ++ground;
+    same += a.land_cover(x, y) == b.land_cover(x, y) ? 1 : 0;
+  }
   EXPECT_GE(same, 0.9 * ground);
   for (std::size_t i = 0; i < parts.terrain.windows.size(); ++i) {
     const Agreement agreement = agreement_of(parts, i);
@@ -377,12 +374,11 @@ TEST_F(GroundWindowsByTheSea, HaveTheWholesSeaAndClimate) {
     const TerrainModel& ground_i = parts.terrain.windows[i].ground;
     int sea = 0;
     int wet = 0;
-    for (int y = 0; y < ground_i.dem->height(); ++y)
-      for (int x = 0; x < ground_i.dem->width(); ++x) {
-        if (ground_i.dem->altitude_m(x, y) != 0.F) continue;
-        ++sea;
-        wet += ground_i.land_cover->classes.cells(x, y) == LandCoverClass::water ? 1 : 0;
-      }
+    for (const auto [x, y] : test::cells(*ground_i.dem)) {
+      if (ground_i.dem->altitude_m(x, y) != 0.F) continue;
+      ++sea;
+      wet += ground_i.land_cover->classes.cells(x, y) == LandCoverClass::water ? 1 : 0;
+    }
     EXPECT_GT(sea, 1000);
     EXPECT_GT(wet, 0.98 * sea);
   }
@@ -436,13 +432,13 @@ TEST_F(GroundWindows, IceGoesOnAcrossJoints) {
     // And farther in, where the window's own cells apply, ice is where the whole has it: within the
     // accuracy of cells of twice the width.
     double both = 0.0, either = 0.0;
-    for (int y = window.part.y0 + 32; y < window.part.y1 - 32; ++y)
-      for (int x = window.part.x0 + 32; x < window.part.x1 - 32; ++x) {
-        const bool here = is_icy(fine(x, y));
-        const bool there = is_icy(class_of(whole, window, x, y));
-        both += here && there ? 1.0 : 0.0;
-        either += here || there ? 1.0 : 0.0;
-      }
+    for (const auto [x, y] : test::cells({window.part.x0 + 32, window.part.y0 + 32,
+                                          window.part.x1 - 32, window.part.y1 - 32})) {
+      const bool here = is_icy(fine(x, y));
+      const bool there = is_icy(class_of(whole, window, x, y));
+      both += here && there ? 1.0 : 0.0;
+      either += here || there ? 1.0 : 0.0;
+    }
     EXPECT_GT(both, (i == 1 ? 0.9 : 0.5) * either) << "window " << i;
     coarser = &window.ground;
   }
@@ -463,12 +459,11 @@ TEST_F(GroundWindows, LayersSeeTheWholesClimateAndWideGround) {
   std::array<double, land_cover_class_count> kinds{};
   double same = 0.0;
   double all = 0.0;
-  for (int y = finest.part.y0; y < finest.part.y1; ++y)
-    for (int x = finest.part.x0; x < finest.part.x1; ++x) {
-      all += 1.0;
-      same += fine(x, y) == class_of(whole, finest, x, y) ? 1.0 : 0.0;
-      kinds[static_cast<std::size_t>(fine(x, y))] += 1.0;
-    }
+  for (const auto [x, y] : test::cells(finest.part)) {
+    all += 1.0;
+    same += fine(x, y) == class_of(whole, finest, x, y) ? 1.0 : 0.0;
+    kinds[static_cast<std::size_t>(fine(x, y))] += 1.0;
+  }
   for (const LandCoverClass id : {LandCoverClass::rock, LandCoverClass::snow,
                                   LandCoverClass::glacier, LandCoverClass::pasture})
     EXPECT_GT(kinds[static_cast<std::size_t>(id)], 0.02 * all) << static_cast<int>(id);

@@ -13,6 +13,7 @@
 #include "terrain/io/dem_levels.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -20,15 +21,14 @@ namespace {
 // Ridges of every size down to two cells, high enough for crests, with a lake.
 Raster<float> mountains(int side) {
   Raster<float> out{Grid<float>(side, side), {600000.0, 5200000.0, 30.0, 30.0}, "EPSG:32632"};
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      double z = 1500.0;
-      for (const double wave : {4.0, 9.0, 21.0, 45.0, 97.0, 205.0})
-        z += 3.0 * wave * exact::sin(6.28 * x / wave) * exact::sin(6.28 * (y + 0.3 * x) / wave);
-      out.cells(x, y) = static_cast<float>(z);
-    }
-  for (int y = side / 2; y < side / 2 + 20; ++y)
-    for (int x = side / 2; x < side / 2 + 30; ++x) out.cells(x, y) = 1100.F;
+  for (const auto [x, y] : test::cells(side, side)) {
+    double z = 1500.0;
+    for (const double wave : {4.0, 9.0, 21.0, 45.0, 97.0, 205.0})
+      z += 3.0 * wave * exact::sin(6.28 * x / wave) * exact::sin(6.28 * (y + 0.3 * x) / wave);
+    out.cells(x, y) = static_cast<float>(z);
+  }
+  for (const auto [x, y] : test::cells({side / 2, side / 2, side / 2 + 30, side / 2 + 20}))
+    out.cells(x, y) = 1100.F;
   out.crs = normalize_crs(out.crs);
   return out;
 }
@@ -99,8 +99,8 @@ TEST_F(PreviewGround, GaussiansMeanTheSameMetres) {
   const Dem data = make_scene_dem(scene(), silent_progress());
   const auto apart = [](const Grid<float>& a, const Grid<float>& b) {
     double sum = 0.0;
-    for (int y = 8; y < a.height() - 8; ++y)
-      for (int x = 8; x < a.width() - 8; ++x) sum += std::abs(a(x, y) - b(x, y));
+    for (const auto [x, y] : test::cells({8, 8, a.width() - 8, a.height() - 8}))
+      sum += std::abs(a(x, y) - b(x, y));
     return sum;
   };
   for (const int level : {1, 2}) {
@@ -108,8 +108,7 @@ TEST_F(PreviewGround, GaussiansMeanTheSameMetres) {
     constexpr double sigma_m = 120.0;
     const Grid<float> whole = gaussian_blur(data.altitude_m, data.blur_cells(sigma_m));
     Grid<float> wanted(dem.width(), dem.height());
-    for (int y = 0; y < dem.height(); ++y)
-      for (int x = 0; x < dem.width(); ++x) wanted(x, y) = whole(x << level, y << level);
+    for (const auto [x, y] : test::cells(dem)) wanted(x, y) = whole(x << level, y << level);
     const double left = apart(wanted, gaussian_blur(dem.altitude_m, dem.blur_cells(sigma_m)));
     EXPECT_LT(3.0 * left, apart(wanted, gaussian_blur(dem.altitude_m, sigma_m / dem.cell_m())))
         << level;

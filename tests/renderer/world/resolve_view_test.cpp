@@ -18,6 +18,7 @@
 #include "renderer/world/view.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/compose/synthetic_region.h"
 
 namespace belvedere {
@@ -198,11 +199,10 @@ class DerivedFromFiles : public testing::Test {
  protected:
   DerivedFromFiles() {
     Raster<float> raster = test::synthetic_raster(60.0, test::chain, 1100);
-    for (int y = 0; y < 1100; ++y)
-      for (int x = 0; x < 1100; ++x) {
-        if (y > 1020) raster.cells(x, y) = 0.F;
-        if ((x - 300) * (x - 300) + (y - 500) * (y - 500) < 900) raster.cells(x, y) = NAN;
-      }
+    for (const auto [x, y] : test::cells(1100, 1100)) {
+      if (y > 1020) raster.cells(x, y) = 0.F;
+      if ((x - 300) * (x - 300) + (y - 500) * (y - 500) < 900) raster.cells(x, y) = NAN;
+    }
     write_raster(folder_ / "dem.tif", raster);
   }
   LoadedScene scene(const std::string& max_mcells) const {

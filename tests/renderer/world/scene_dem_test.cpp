@@ -15,6 +15,7 @@
 #include "renderer/world/generalize_view.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/notes.h"
 #include "tests/scenes.h"
 
@@ -27,9 +28,8 @@ class TerrainOperators : public testing::Test {
  protected:
   void SetUp() override {
     striped_ = valley(0.0);
-    for (int y = 0; y < striped_.cells.height(); ++y)
-      for (int x = 0; x < striped_.cells.width(); ++x)
-        striped_.cells(x, y) += y / 2 % 2 == 0 ? 4.F : -4.F;
+    for (const auto [x, y] : test::cells(striped_.cells))
+      striped_.cells(x, y) += y / 2 % 2 == 0 ? 4.F : -4.F;
     write_raster(folder_ / "striped.tif", striped_);
     write_raster(folder_ / "clean.tif", valley());
   }
@@ -37,11 +37,10 @@ class TerrainOperators : public testing::Test {
   static Raster<float> valley(double gullies_m = 60.0) {
     Raster<float> raster{
         Grid<float>(160, 200), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
-    for (int y = 0; y < 200; ++y)
-      for (int x = 0; x < 160; ++x)
-        raster.cells(x, y) =
-            static_cast<float>(900.0 - y + 18.0 * std::abs(x - 80.0) +
-                               gullies_m * std::sin(x / 3.0) * std::sin(y / 11.0 + x));
+    for (const auto [x, y] : test::cells(160, 200))
+      raster.cells(x, y) =
+          static_cast<float>(900.0 - y + 18.0 * std::abs(x - 80.0) +
+                             gullies_m * std::sin(x / 3.0) * std::sin(y / 11.0 + x));
     return raster;
   }
   LoadedScene scene(const std::string& file, const std::string& settings,
@@ -85,8 +84,8 @@ TEST_F(TerrainOperators, SlopesBecomePlainAndValleysWide) {
   const Grid<float> wide = generalized("widen_valleys_m = 1000\n");
   const auto roughness = [](const Grid<float>& z) {
     double sum = 0.0;
-    for (int y = 20; y < 180; ++y)
-      for (int x = 20; x < 60; ++x) sum += std::abs(z(x - 1, y) - 2.F * z(x, y) + z(x + 1, y));
+    for (const auto [x, y] : test::cells({20, 20, 60, 180}))
+      sum += std::abs(z(x - 1, y) - 2.F * z(x, y) + z(x + 1, y));
     return sum;
   };
   EXPECT_LT(roughness(plain), 0.5 * roughness(bare));

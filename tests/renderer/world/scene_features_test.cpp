@@ -14,6 +14,7 @@
 #include "renderer/stages/picture_layers.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/notes.h"
 #include "tests/shared_cache.h"
 
@@ -30,10 +31,9 @@ class SceneFeaturesInPictures : public testing::Test {
  protected:
   SceneFeaturesInPictures() {
     std::string dem = "ncols 80\nnrows 80\nxllcorner 680000\nyllcorner 5240000\ncellsize 100\n";
-    for (int y = 0; y < 80; ++y)
-      for (int x = 0; x < 80; ++x)
-        dem += fmt::format("{:.1f}{}", 900.0 + 60.0 * std::sin(x / 6.0) * std::cos(y / 7.0),
-                           x == 79 ? '\n' : ' ');
+    for (const auto [x, y] : test::cells(80, 80))
+      dem += fmt::format("{:.1f}{}", 900.0 + 60.0 * std::sin(x / 6.0) * std::cos(y / 7.0),
+                         x == 79 ? '\n' : ' ');
     folder_.write("dem.asc", dem);
   }
   std::string write(const std::string& name, const std::string& features) const {
@@ -108,8 +108,7 @@ TEST_F(SceneFeaturesInPictures, AnyPartShowsTheWholeAndFarFromThemNothingChanges
   const Grid<glm::vec3> part = painted(scene(block), "part", request);
   ASSERT_EQ(part.width(), 120);
   std::size_t wrong = 0;
-  for (int y = 0; y < part.height(); ++y)
-    for (int x = 0; x < part.width(); ++x) wrong += part(x, y) != whole(70 + x, 50 + y) ? 1 : 0;
+  for (const auto [x, y] : test::cells(part)) wrong += part(x, y) != whole(70 + x, 50 + y) ? 1 : 0;
   EXPECT_EQ(wrong, 0U);
 
   const Grid<glm::vec3> before = painted(scene(), "before");
@@ -126,14 +125,13 @@ TEST_F(SceneFeaturesInPictures, AnyPartShowsTheWholeAndFarFromThemNothingChanges
   }
   std::size_t changed = 0;
   std::size_t changed_far = 0;
-  for (int y = 0; y < before.height(); ++y)
-    for (int x = 0; x < before.width(); ++x) {
-      if (before(x, y) == whole(x, y)) continue;
-      ++changed;
-      // Trees are about 20 units high: cleared ones may have reached this far.
-      const bool far = x < low.x - 25 || y < low.y - 40 || x > high.x + 25 || y > high.y + 25;
-      changed_far += far ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(before)) {
+    if (before(x, y) == whole(x, y)) continue;
+    ++changed;
+    // Trees are about 20 units high: cleared ones may have reached this far.
+    const bool far = x < low.x - 25 || y < low.y - 40 || x > high.x + 25 || y > high.y + 25;
+    changed_far += far ? 1 : 0;
+  }
   EXPECT_GT(changed, 300U);
   EXPECT_EQ(changed_far, 0U);
 }

@@ -9,6 +9,7 @@
 #include "base/cache/cache.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -34,8 +35,7 @@ class RefinedLandCover : public testing::Test {
                   "= \"snow\"\nwhen = \"northing > 5199000\"\n");
     Raster<float> codes{
         Grid<float>(50, 50), {east, north, 40.0, 40.0}, normalize_crs("EPSG:32632")};
-    for (int y = 0; y < 50; ++y)
-      for (int x = 0; x < 50; ++x) codes.cells(x, y) = code(x);
+    for (const auto [x, y] : test::cells(50, 50)) codes.cells(x, y) = code(x);
     write_raster(folder_ / "cover.tif", codes);
     const LoadedScene scene = parse_scene(
         "version = 1\n[land_cover]\nlegend = \"esa_worldcover\"\nrules = \"rules.toml\"\n" +
@@ -55,20 +55,19 @@ TEST_F(RefinedLandCover, ChangesTheNamedClassWhereTheRulesSeeTheOther) {
   ASSERT_EQ(cover.classes.cells.width(), 50);
   int glaciers = 0;
   int snows = 0;
-  for (int y = 0; y < 50; ++y)
-    for (int x = 0; x < 50; ++x) {
-      // The rules stand on the DEM's cells of 100 m: the border lies between columns 9 and 10, and
-      // rows 9 and 10; cells of 40 m have their centres at (n + 0.5) · 0.4 of those.
-      const bool east_of = (x + 0.5) * 0.4 > 10.0;
-      const bool north_of = (y + 0.5) * 0.4 < 10.0;
-      const LandCoverClass read = as_read(x);
-      const LandCoverClass expected = read == rock && east_of && !north_of ? glacier
-                                      : read == pasture && north_of        ? snow
-                                                                           : read;
-      ASSERT_EQ(cover.classes.cells(x, y), expected) << x << ", " << y;
-      glaciers += expected == glacier ? 1 : 0;
-      snows += expected == snow ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(50, 50)) {
+    // The rules stand on the DEM's cells of 100 m: the border lies between columns 9 and 10, and
+    // rows 9 and 10; cells of 40 m have their centres at (n + 0.5) · 0.4 of those.
+    const bool east_of = (x + 0.5) * 0.4 > 10.0;
+    const bool north_of = (y + 0.5) * 0.4 < 10.0;
+    const LandCoverClass read = as_read(x);
+    const LandCoverClass expected = read == rock && east_of && !north_of ? glacier
+                                    : read == pasture && north_of        ? snow
+                                                                         : read;
+    ASSERT_EQ(cover.classes.cells(x, y), expected) << x << ", " << y;
+    glaciers += expected == glacier ? 1 : 0;
+    snows += expected == snow ? 1 : 0;
+  }
   EXPECT_GT(glaciers, 100);
   EXPECT_GT(snows, 200);
 }
@@ -98,8 +97,7 @@ TEST(ErodedLandCover, DrawsBackInTheScene) {
 
 TEST_F(RefinedLandCover, WithoutTheKeyTheRasterHoldsAlone) {
   const LandCover cover = refined("");
-  for (int y = 0; y < 50; ++y)
-    for (int x = 0; x < 50; ++x) ASSERT_EQ(cover.classes.cells(x, y), as_read(x));
+  for (const auto [x, y] : test::cells(50, 50)) ASSERT_EQ(cover.classes.cells(x, y), as_read(x));
 }
 
 // A scene's layers replace rules; its settings are those of the layers.
@@ -110,8 +108,7 @@ TEST(LayeredLandCover, LayersOfTheSceneSayWhatTheGroundIs) {
                "= 0\nhigh = 3000\n[parameters]\nline_m = 5000\n"
                "[[layers]]\nname = \"ice\"\nclass = \"glacier\"\nwhen = \"altitude > line_m\"\n");
   Grid<float> altitude(20, 20, 1000.F);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 12; x < 20; ++x) altitude(x, y) = 2000.F;
+  for (const auto [x, y] : test::cells({12, 0, 20, 20})) altitude(x, y) = 2000.F;
   const Dem dem =
       make_dem({altitude, {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")});
   const auto cover = [&](const std::string& settings) {
@@ -122,8 +119,8 @@ TEST(LayeredLandCover, LayersOfTheSceneSayWhatTheGroundIs) {
   };
   for (const LandCoverClass id : cover("")) ASSERT_EQ(id, forest);
   const Grid<LandCoverClass> low = cover("settings = { line_m = 1500 }\n");
-  for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 20; ++x) ASSERT_EQ(low(x, y), x < 12 ? forest : glacier) << x << ", " << y;
+  for (const auto [x, y] : test::cells(20, 20))
+    ASSERT_EQ(low(x, y), x < 12 ? forest : glacier) << x << ", " << y;
   EXPECT_THROW(cover("settings = { line = 1500 }\n"), Error);
 }
 
@@ -169,10 +166,9 @@ TEST(LayeredLandCover, BumpsAndBedsComeWithTheLayersColours) {
                "[[layers]]\nname = \"lake\"\nclass = \"water\"\ncolour = \"#0000ff\"\nwhen = "
                "\"lake > 0.5\"\n");
   Grid<float> altitude(80, 80);
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 80; ++x)
-      altitude(x, y) =
-          static_cast<float>(900.0 + 4.0 * std::max(0.0, std::hypot(x - 40.0, y - 40.0) - 15.0));
+  for (const auto [x, y] : test::cells(80, 80))
+    altitude(x, y) =
+        static_cast<float>(900.0 + 4.0 * std::max(0.0, std::hypot(x - 40.0, y - 40.0) - 15.0));
   const Dem dem =
       make_dem({altitude, {500000.0, 5200000.0, 50.0, 50.0}, normalize_crs("EPSG:32632")});
   const Cache cache({.folder = folder / "cache", .limit_bytes = 0});
@@ -215,8 +211,7 @@ TEST(LayersInAScene, HangOnItsClimateAlsoFromTheCache) {
                 "," + std::to_string(6.0 - 1.2 * i) + "\n";
   folder.write("stations.csv", stations);
   Grid<float> altitude(40, 20);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 40; ++x) altitude(x, y) = 100.F * static_cast<float>(x);
+  for (const auto [x, y] : test::cells(40, 20)) altitude(x, y) = 100.F * static_cast<float>(x);
   const auto made = [&](const std::string& climate, const std::string& crs, const Cache& cache) {
     const Dem dem = make_dem(
         {altitude, {500000.0, 5200000.0, 100.0, 100.0}, crs.empty() ? crs : normalize_crs(crs)});

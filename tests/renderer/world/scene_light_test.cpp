@@ -11,6 +11,7 @@
 #include "renderer/trace/light_field.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/trace/synthetic_ground.h"
 #include "tests/scenes.h"
 
@@ -165,9 +166,8 @@ TEST(SceneLight, PartsAndTilesHaveTheBitsOfTheWhole) {
   // The lower part needs what is above it, no more than half of the picture here.
   const PixelRect part{0, 8, 96, 80};
   const LitPicture lower = lit(scene, part);
-  for (int y = 72; y < 80; ++y)
-    for (int x = 0; x < 96; ++x)
-      ASSERT_EQ(lower.guidance.shadow(x, y - part.y0), whole.guidance.shadow(x, y));
+  for (const auto [x, y] : test::cells({0, 72, 96, 80}))
+    ASSERT_EQ(lower.guidance.shadow(x, y - part.y0), whole.guidance.shadow(x, y));
 }
 
 TEST(SceneLight, WrittenScenesReadBackTheSame) {

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "terrain/io/crs.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/notes.h"
 
 namespace belvedere {
@@ -22,8 +23,8 @@ Dem tyrol(const std::string& crs = "EPSG:32632") {
   Raster<float> raster{Grid<float>(100, 100),
                        {680000.0, 5240000.0, 90.0, 90.0},
                        crs.empty() ? crs : normalize_crs(crs)};
-  for (int y = 0; y < 100; ++y)
-    for (int x = 0; x < 100; ++x) raster.cells(x, y) = 600.F + 22.F * static_cast<float>(x);
+  for (const auto [x, y] : test::cells(100, 100))
+    raster.cells(x, y) = 600.F + 22.F * static_cast<float>(x);
   return make_dem(std::move(raster));
 }
 
@@ -226,8 +227,8 @@ Dem slope(const std::string& crs = "EPSG:32632") {
   Raster<float> raster{Grid<float>(200, 200),
                        {680000.0, 5240000.0, 30.0, 30.0},
                        crs.empty() ? crs : normalize_crs(crs)};
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x) raster.cells(x, y) = 700.F + 6.0F * static_cast<float>(x);
+  for (const auto [x, y] : test::cells(200, 200))
+    raster.cells(x, y) = 700.F + 6.0F * static_cast<float>(x);
   return make_dem(std::move(raster));
 }
 

@@ -12,6 +12,7 @@
 #include "renderer/world/scene_land_cover.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/notes.h"
 
 namespace belvedere {
@@ -29,8 +30,8 @@ using testing::Not;
 Dem plain() {
   Raster<float> raster{
       Grid<float>(200, 200), {680000.0, 5240000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x) raster.cells(x, y) = 700.F + 0.4F * static_cast<float>(x);
+  for (const auto [x, y] : test::cells(200, 200))
+    raster.cells(x, y) = 700.F + 0.4F * static_cast<float>(x);
   return make_dem(std::move(raster));
 }
 

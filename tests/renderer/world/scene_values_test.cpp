@@ -4,16 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/random.h"
 #include "renderer/world/world.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/scenes.h"
 #include "tests/shared_cache.h"
 
@@ -109,13 +108,12 @@ void expect_same_rays(const World& kept, const World& fresh) {
   EXPECT_TRUE(kept.surface->vertices_m == fresh.surface->vertices_m);
   EXPECT_EQ(kept.surface->origin, fresh.surface->origin);
   std::vector<Ray> rays;
-  for (int y = 2; y < fresh.camera->size().y; y += 5)
-    for (int x = 2; x < fresh.camera->size().x; x += 5) {
-      rays.push_back(fresh.camera->ray({x, y}));
-      const Ray other = kept.camera->ray({x, y});
-      ASSERT_EQ(other.origin, rays.back().origin);
-      ASSERT_EQ(other.direction, rays.back().direction);
-    }
+  for (const auto [x, y] : test::cells({2, 2, fresh.camera->size().x, fresh.camera->size().y}, 5)) {
+    rays.push_back(fresh.camera->ray({x, y}));
+    const Ray other = kept.camera->ray({x, y});
+    ASSERT_EQ(other.origin, rays.back().origin);
+    ASSERT_EQ(other.direction, rays.back().direction);
+  }
   std::vector<Hit> a(rays.size());
   std::vector<Hit> b(rays.size());
   kept.tracer.intersect(rays, a);
@@ -333,11 +331,10 @@ TEST(SceneValues, AfterAnErrorTheNextWorldIsRight) {
 void write_slope(const std::string& path, float foot_m) {
   Raster<float> raster{
       Grid<float>(40, 40), {600000.0, 5204000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) {
-      const auto east = static_cast<float>(x);
-      raster.cells(x, y) = foot_m + 20.F * east + static_cast<float>((x * 7 + y * 3) % 5);
-    }
+  for (const auto [x, y] : test::cells(40, 40)) {
+    const auto east = static_cast<float>(x);
+    raster.cells(x, y) = foot_m + 20.F * east + static_cast<float>((x * 7 + y * 3) % 5);
+  }
   write_raster(path, raster);
 }
 

@@ -15,6 +15,7 @@
 #include "renderer/world/scene_land_cover.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -248,9 +249,8 @@ TEST(KnownAltitude, IsVoidWhereSomethingWasFilled) {
   Raster<float> raster{Grid<float>(8, 8, 100.F), {0.0, 0.0, 10.0, 10.0}, {}};
   raster.cells(3, 4) = NAN;
   const Grid<float> known = known_altitude(make_dem(std::move(raster)));
-  for (int y = 0; y < 8; ++y)
-    for (int x = 0; x < 8; ++x)
-      EXPECT_EQ(std::isnan(known(x, y)), x == 3 && y == 4) << x << ' ' << y;
+  for (const auto [x, y] : test::cells(8, 8))
+    EXPECT_EQ(std::isnan(known(x, y)), x == 3 && y == 4) << x << ' ' << y;
 }
 
 // The search for a bend tries many on one ground.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "terrain/cover/class_rules.h"
+#include "tests/grids.h"
 #include "tests/terrain/cover/class_rules_ground.h"
 
 // Class rules with the local climate.
@@ -70,9 +71,8 @@ TEST(LifeZones, ForestClimbsHigherOnSunnySlopes) {
   const Grid<LandCoverClass> c = apply_in(climate(1900.F, 4500.F, 1.F), dem, {{"raggedness", 0.0}});
   const auto highest = [&](int from, int to) {
     float top = 0.F;
-    for (int y = from; y < to; ++y)
-      for (int x = 100; x < 140; ++x)
-        if (c(x, y) == forest) top = std::max(top, dem.altitude_m(x, y));
+    for (const auto [x, y] : test::cells({100, from, 140, to}))
+      if (c(x, y) == forest) top = std::max(top, dem.altitude_m(x, y));
     return top;
   };
   EXPECT_GT(highest(120, 240), highest(0, 120) + 100.F);  // rows run south

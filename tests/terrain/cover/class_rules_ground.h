@@ -7,6 +7,7 @@
 #include "base/grid.h"
 #include "base/land_cover_class.h"
 #include "terrain/io/dem.h"
+#include "tests/grids.h"
 
 namespace belvedere::test {
 
@@ -16,10 +17,9 @@ inline Dem ground(int size, const std::function<double(double, double)>& altitud
   dem.altitude_m = Grid<float>(size, size);
   dem.filled = Grid<std::uint8_t>(size, size, 0);
   dem.transform = {1000.0, 5000.0, 30.0, 30.0};
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x)
-      dem.altitude_m(x, y) =
-          static_cast<float>(altitude(30.0 * (x - size / 2), -30.0 * (y - size / 2)));
+  for (const auto [x, y] : test::cells(size, size))
+    dem.altitude_m(x, y) =
+        static_cast<float>(altitude(30.0 * (x - size / 2), -30.0 * (y - size / 2)));
   return dem;
 }
 

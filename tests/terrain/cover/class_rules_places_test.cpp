@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <map>
-#include <string>
 #include <vector>
 
 #include "tests/terrain/cover/place_ground.h"

@@ -10,6 +10,7 @@
 #include "terrain/climate/map_climate.h"
 #include "terrain/climate/map_position.h"
 #include "terrain/cover/class_rules.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 
 // Rules and the default climate on real elevation, compared with glacier inventories.
@@ -48,20 +49,19 @@ TEST_P(IceOnRealGround, CoversWhatInventoriesCountWithinAFactorOfTwo) {
   double high = 0.0;
   double high_white = 0.0;
   double lowest_m = 9000.0;
-  for (int y = 0; y < dem.height(); ++y)
-    for (int x = 0; x < dem.width(); ++x) {
-      if (dem.filled(x, y) != 0) continue;
-      const LandCoverClass here = cover.classes.cells(x, y);
-      const bool is_white = here == LandCoverClass::glacier || here == LandCoverClass::snow;
-      ground += 1.0;
-      white += is_white ? 1.0 : 0.0;
-      const auto altitude_m = static_cast<double>(dem.altitude_m(x, y));
-      if (is_white) lowest_m = std::min(lowest_m, altitude_m);
-      if (altitude_m > 3600.0) {
-        high += 1.0;
-        high_white += is_white ? 1.0 : 0.0;
-      }
+  for (const auto [x, y] : test::cells(dem)) {
+    if (dem.filled(x, y) != 0) continue;
+    const LandCoverClass here = cover.classes.cells(x, y);
+    const bool is_white = here == LandCoverClass::glacier || here == LandCoverClass::snow;
+    ground += 1.0;
+    white += is_white ? 1.0 : 0.0;
+    const auto altitude_m = static_cast<double>(dem.altitude_m(x, y));
+    if (is_white) lowest_m = std::min(lowest_m, altitude_m);
+    if (altitude_m > 3600.0) {
+      high += 1.0;
+      high_white += is_white ? 1.0 : 0.0;
     }
+  }
   const double share = white / ground;
   RecordProperty("share", std::to_string(share));
   EXPECT_GT(share, region.inventory_share / 2.0) << region.source;

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "terrain/cover/class_rules_inputs.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/terrain/cover/class_rules_ground.h"
 
 namespace belvedere {
@@ -144,10 +144,9 @@ TEST(ClassRules, SnowReachesLowerOnTheNorthSide) {
       apply(read_class_rules("life_zones"), high, {{"ice_line_m", 9000.0}});
   const auto lowest_snow = [&](bool north_side) {
     double lowest = 1e9;
-    for (int y = 0; y < 240; ++y)
-      for (int x = 0; x < 240; ++x)
-        if (c(x, y) == snow && (y < 120) == north_side && 2 * std::abs(x - 120) < std::abs(y - 120))
-          lowest = std::min(lowest, static_cast<double>(high.altitude_m(x, y)));
+    for (const auto [x, y] : test::cells(240, 240))
+      if (c(x, y) == snow && (y < 120) == north_side && 2 * std::abs(x - 120) < std::abs(y - 120))
+        lowest = std::min(lowest, static_cast<double>(high.altitude_m(x, y)));
     return lowest;
   };
   EXPECT_LT(lowest_snow(false), 3400.0);  // there is some
@@ -183,16 +182,15 @@ TEST(ClassRules, TheSeaIsWaterWithABeach) {
   double water_at_sea = 0.0;
   double water_on_land = 0.0;
   double sand_by_the_sea = 0.0;
-  for (int y = 0; y < 300; ++y)
-    for (int x = 0; x < 300; ++x) {
-      const double e = 30.0 * (x - 150);
-      if (e < -1000.0) water_at_sea += c(x, y) == water ? 1.0 : 0.0;
-      if (e > -900.0) water_on_land += c(x, y) == water ? 1.0 : 0.0;
-      if (e > -1000.0 && e < -850.0) sand_by_the_sea += c(x, y) == sand ? 1.0 : 0.0;
-      if (e > -300.0) {
-        EXPECT_NE(c(x, y), sand);
-      }
+  for (const auto [x, y] : test::cells(300, 300)) {
+    const double e = 30.0 * (x - 150);
+    if (e < -1000.0) water_at_sea += c(x, y) == water ? 1.0 : 0.0;
+    if (e > -900.0) water_on_land += c(x, y) == water ? 1.0 : 0.0;
+    if (e > -1000.0 && e < -850.0) sand_by_the_sea += c(x, y) == sand ? 1.0 : 0.0;
+    if (e > -300.0) {
+      EXPECT_NE(c(x, y), sand);
     }
+  }
   EXPECT_GT(water_at_sea / (300.0 * 117.0), 0.995);
   EXPECT_LT(water_on_land, 30.0);
   EXPECT_GT(sand_by_the_sea / (300.0 * 5.0), 0.4);
@@ -242,15 +240,14 @@ TEST(ClassRules, ReedsGrowIntoLakesFromTheShore) {
   EXPECT_LT(share(grown, water), 0.95 * share(open, water));
   EXPECT_GT(share(grown, water), 0.5 * share(open, water));
   // No reeds farther out than 400 m, and no water where the lake was not.
-  for (int y = 0; y < 160; ++y)
-    for (int x = 0; x < 160; ++x) {
-      if (grown(x, y) == water) {
-        ASSERT_EQ(open(x, y), water);
-      }
-      if (std::hypot(x - 80, y - 80) * 30.0 < 350.0) {
-        ASSERT_EQ(grown(x, y), water);
-      }
+  for (const auto [x, y] : test::cells(160, 160)) {
+    if (grown(x, y) == water) {
+      ASSERT_EQ(open(x, y), water);
     }
+    if (std::hypot(x - 80, y - 80) * 30.0 < 350.0) {
+      ASSERT_EQ(grown(x, y), water);
+    }
+  }
 }
 
 TEST(ClassRules, WinterCoversMeadowsAndLeavesForest) {
@@ -274,11 +271,10 @@ TEST(ClassRules, TownsAreWhereTheSceneSaysAndNowhereElse) {
   // As large as a circle of that radius, minus the river; ragged by a fifth of the radius.
   EXPECT_NEAR(share(with, settlement) * 6000.0 * 6000.0, 3.14159 * 900.0 * 900.0,
               0.25 * 3.14159 * 900.0 * 900.0);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x)
-      if (with(x, y) == settlement) {
-        ASSERT_LT(std::hypot(x - 60, y - 140) * 30.0, 2600.0);
-      }
+  for (const auto [x, y] : test::cells(200, 200))
+    if (with(x, y) == settlement) {
+      ASSERT_LT(std::hypot(x - 60, y - 140) * 30.0, 2600.0);
+    }
   EXPECT_EQ(with(60, 140), settlement);
 }
 
@@ -307,10 +303,8 @@ TEST(ClassRules, VillagesStandOnValleyFloorsAndInClearings) {
   EXPECT_EQ(share(apply(rules, dem, {{"town_highest_m", 500.0}}), settlement), 0.0);
   // No houses in the forest: it ends before them.
   int in_wood = 0;
-  for (int y = 1; y < 239; ++y)
-    for (int x = 1; x < 239; ++x)
-      if (some(x, y) == settlement && some(x + 1, y) == forest && some(x - 1, y) == forest)
-        ++in_wood;
+  for (const auto [x, y] : test::cells({1, 1, 239, 239}))
+    if (some(x, y) == settlement && some(x + 1, y) == forest && some(x - 1, y) == forest) ++in_wood;
   EXPECT_EQ(in_wood, 0);
 }
 
@@ -322,18 +316,17 @@ TEST(ClassRules, FieldsLieAboutTownsAndMeadowsBetween) {
   const glm::dvec2 town = plain.transform.to_crs(60, 120);
   const Grid<LandCoverClass> c = apply(rules, plain, {{"settlement", -1.0}}, {{town, 500.0}});
   int fields_near = 0, near = 0, fields_far = 0, meadows_far = 0, far = 0;
-  for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 240; ++x) {
-      const double away = glm::length(plain.transform.to_crs(x, y) - town);
-      if (away > 700.0 && away < 1200.0) {
-        ++near;
-        fields_near += c(x, y) == LandCoverClass::valley_floor ? 1 : 0;
-      } else if (away > 3000.0) {
-        ++far;
-        fields_far += c(x, y) == LandCoverClass::valley_floor ? 1 : 0;
-        meadows_far += c(x, y) == LandCoverClass::pasture ? 1 : 0;
-      }
+  for (const auto [x, y] : test::cells(240, 240)) {
+    const double away = glm::length(plain.transform.to_crs(x, y) - town);
+    if (away > 700.0 && away < 1200.0) {
+      ++near;
+      fields_near += c(x, y) == LandCoverClass::valley_floor ? 1 : 0;
+    } else if (away > 3000.0) {
+      ++far;
+      fields_far += c(x, y) == LandCoverClass::valley_floor ? 1 : 0;
+      meadows_far += c(x, y) == LandCoverClass::pasture ? 1 : 0;
     }
+  }
   EXPECT_GT(fields_near, near * 9 / 10);
   EXPECT_LT(fields_far, far / 50);
   EXPECT_GT(meadows_far, far * 9 / 10);
@@ -422,17 +415,16 @@ TEST(ClassRules, RubbleLiesAboveTheGrassAndAboutTheIce) {
   const Grid<LandCoverClass> bare =
       apply(rules, trough, {{"ice_line_m", 9000.0}, {"treeline_m", 2200.0}, {"raggedness", 0.0}});
   int rubble = 0;
-  for (int y = 1; y < 199; ++y)
-    for (int x = 1; x < 199; ++x) {
-      if (icy(x, y) != scree || bare(x, y) == scree) continue;
-      ++rubble;
-      bool near_ice = false;
-      for (int v = -6; v <= 6 && !near_ice; ++v)
-        for (int u = -6; u <= 6 && !near_ice; ++u)
-          near_ice = icy.contains(x + u, y + v) &&
-                     (icy(x + u, y + v) == glacier || icy(x + u, y + v) == snow);
-      EXPECT_TRUE(near_ice) << x << ", " << y;
-    }
+  for (const auto [x, y] : test::cells({1, 1, 199, 199})) {
+    if (icy(x, y) != scree || bare(x, y) == scree) continue;
+    ++rubble;
+    bool near_ice = false;
+    for (int v = -6; v <= 6 && !near_ice; ++v)
+      for (int u = -6; u <= 6 && !near_ice; ++u)
+        near_ice = icy.contains(x + u, y + v) &&
+                   (icy(x + u, y + v) == glacier || icy(x + u, y + v) == snow);
+    EXPECT_TRUE(near_ice) << x << ", " << y;
+  }
   EXPECT_GT(rubble, 100);
 }
 
@@ -445,12 +437,11 @@ TEST(ClassRules, GlaciersFlowDownValleysInTongues) {
       apply(read_class_rules("life_zones"), dem, {{"ice_line_m", 3000.0}, {"raggedness", 0.0}});
   double lowest_ice = 1e9;
   int column = 0;
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x)
-      if (c(x, y) == glacier && static_cast<double>(dem.altitude_m(x, y)) < lowest_ice) {
-        lowest_ice = static_cast<double>(dem.altitude_m(x, y));
-        column = x;
-      }
+  for (const auto [x, y] : test::cells(200, 200))
+    if (c(x, y) == glacier && static_cast<double>(dem.altitude_m(x, y)) < lowest_ice) {
+      lowest_ice = static_cast<double>(dem.altitude_m(x, y));
+      column = x;
+    }
   EXPECT_LT(lowest_ice, 2850.0);
   EXPECT_NEAR(column, 100, 20);
 }
@@ -460,8 +451,7 @@ TEST(ClassRules, SpecksGoAndWaterStays) {
   c(10, 10) = rock;
   c(11, 10) = rock;
   c(20, 20) = water;
-  for (int y = 28; y < 36; ++y)
-    for (int x = 28; x < 36; ++x) c(x, y) = snow;
+  for (const auto [x, y] : test::cells({28, 28, 36, 36})) c(x, y) = snow;
   class_rules::remove_specks(c, 5);
   EXPECT_EQ(c(10, 10), forest);
   EXPECT_EQ(c(20, 20), water);

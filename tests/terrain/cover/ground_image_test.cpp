@@ -8,6 +8,7 @@
 
 #include "terrain/io/raster_file.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -29,11 +30,10 @@ class GroundImage : public testing::Test {
     const std::string path = folder_ / "image.tif";
     std::vector<Grid<std::uint8_t>> cells(static_cast<std::size_t>(bands),
                                           Grid<std::uint8_t>(frame.width, frame.height, 77));
-    for (int y = 0; y < frame.height; ++y)
-      for (int x = 0; x < frame.width; ++x) {
-        cells[0](x, y) = static_cast<std::uint8_t>(10 * x);
-        if (bands > 1) cells[1](x, y) = static_cast<std::uint8_t>(8 * y);
-      }
+    for (const auto [x, y] : test::cells(frame.width, frame.height)) {
+      cells[0](x, y) = static_cast<std::uint8_t>(10 * x);
+      if (bands > 1) cells[1](x, y) = static_cast<std::uint8_t>(8 * y);
+    }
     ByteRasterRows rows(path, {.frame = frame,
                                .bands = std::vector<ByteRasterLayout::Band>(cells.size()),
                                .is_colour = bands == 3});
@@ -50,23 +50,21 @@ TEST_F(GroundImage, IsTheBytesOfCellsThatCoincideAndUnknownBeyond) {
   const Raster<GroundColour> read =
       read_ground_image(path, frame_of(30, 16, 30.0, -150.0), true, silent_progress());
   ASSERT_EQ(read.cells.width(), 30);
-  for (int y = 0; y < 16; ++y)
-    for (int x = 0; x < 30; ++x) {
-      const bool known = x >= 5 && x < 25;
-      const GroundColour expected =
-          known ? GroundColour(10 * (x - 5), 8 * y, 77, 255) : GroundColour(0);
-      ASSERT_EQ(read.cells(x, y), expected) << x << ", " << y;
-    }
+  for (const auto [x, y] : test::cells(30, 16)) {
+    const bool known = x >= 5 && x < 25;
+    const GroundColour expected =
+        known ? GroundColour(10 * (x - 5), 8 * y, 77, 255) : GroundColour(0);
+    ASSERT_EQ(read.cells(x, y), expected) << x << ", " << y;
+  }
 }
 
 TEST_F(GroundImage, FinerPicturesAreAveraged) {
   const Raster<GroundColour> read = read_ground_image(
       write(3, frame_of(20, 16, 30.0)), frame_of(10, 8, 60.0), true, silent_progress());
-  for (int y = 1; y < 7; ++y)
-    for (int x = 1; x < 9; ++x) {
-      EXPECT_NEAR(read.cells(x, y).r, 20 * x + 5, 2);
-      EXPECT_NEAR(read.cells(x, y).g, 16 * y + 4, 2);
-    }
+  for (const auto [x, y] : test::cells({1, 1, 9, 7})) {
+    EXPECT_NEAR(read.cells(x, y).r, 20 * x + 5, 2);
+    EXPECT_NEAR(read.cells(x, y).g, 16 * y + 4, 2);
+  }
 }
 
 TEST_F(GroundImage, RefusesWhatIsNoPictureOfTheGround) {

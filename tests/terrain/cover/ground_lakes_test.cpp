@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "tests/grids.h"
 #include "tests/terrain/cover/class_rules_ground.h"
 
 namespace belvedere {
@@ -32,8 +33,7 @@ TEST(GroundLakes, LevelGroundWithBanksIsOne) {
 TEST(GroundLakes, NothingAtSeaIsOne) {
   Sea sea;
   sea.mask = Grid<std::uint8_t>(80, 80, 0);
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 40; ++x) sea.mask(x, y) = 1;
+  for (const auto [x, y] : test::cells(40, 80)) sea.mask(x, y) = 1;
   const Grid<std::uint8_t> lakes = ground_lakes(hollow(), {}, sea);
   EXPECT_EQ(lakes(38, 40), 0);
   EXPECT_EQ(lakes(42, 40), 1);
@@ -54,9 +54,8 @@ TEST(GroundLakes, HolesOverTheRimAreWhatTheWholeKnows) {
   Dem dem = test::ground(80, [](double e, double n) {
     return 500.0 + std::max(0.0, 0.2 * (std::hypot(e + 1200.0, n) - 400.0));
   });
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 80; ++x)
-      if (dem.altitude_m(x, y) < 500.5F) dem.filled(x, y) = 1;
+  for (const auto [x, y] : test::cells(80, 80))
+    if (dem.altitude_m(x, y) < 500.5F) dem.filled(x, y) = 1;
   LakeParameters none_level;
   none_level.min_cells = 150;
   none_level.min_bank_m = 99.F;  // holes alone
@@ -70,16 +69,14 @@ TEST(HoleLakes, HaveLevelShores) {
   // A lake in a bowl, and a radar shadow across a slope.
   Raster<float> raster;
   raster.cells = Grid<float>(side, side);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      const double out = std::hypot(x - 100.0, y - 100.0) - 30.0;
-      raster.cells(x, y) = out < 0.0 ? NAN : static_cast<float>(500.0 + 0.8 * std::min(out, 200.0));
-      if (std::hypot(x - 300.0, y - 300.0) < 20.0) raster.cells(x, y) = NAN;
-    }
-  for (int y = 250; y < 350; ++y)
-    for (int x = 250; x < 350; ++x)
-      if (!std::isnan(raster.cells(x, y)))
-        raster.cells(x, y) = 700.F + 5.F * static_cast<float>(x - 250);
+  for (const auto [x, y] : test::cells(side, side)) {
+    const double out = std::hypot(x - 100.0, y - 100.0) - 30.0;
+    raster.cells(x, y) = out < 0.0 ? NAN : static_cast<float>(500.0 + 0.8 * std::min(out, 200.0));
+    if (std::hypot(x - 300.0, y - 300.0) < 20.0) raster.cells(x, y) = NAN;
+  }
+  for (const auto [x, y] : test::cells({250, 250, 350, 350}))
+    if (!std::isnan(raster.cells(x, y)))
+      raster.cells(x, y) = 700.F + 5.F * static_cast<float>(x - 250);
   raster.transform = {0.0, 0.0, 30.0, 30.0};
   const Dem dem = make_dem(std::move(raster));
   const Grid<std::uint8_t> lakes = find_hole_lakes(dem);
@@ -93,14 +90,12 @@ TEST(HoleLakes, OverTheRimAreKnownFromOutside) {
   Dem dem;
   dem.altitude_m = Grid<float>(80, 60, 500.F);
   dem.filled = Grid<std::uint8_t>(80, 60, 0);
-  for (int y = 10; y < 40; ++y)
-    for (int x = 0; x < 20; ++x) dem.filled(x, y) = 1;
+  for (const auto [x, y] : test::cells({0, 10, 20, 40})) dem.filled(x, y) = 1;
   EXPECT_EQ(find_hole_lakes(dem)(10, 20), 0);
   Grid<std::uint8_t> known(80, 60, 0);
   EXPECT_EQ(find_hole_lakes(dem, 150, known)(10, 20), 0);
   // Its shore there differs because of the coarser cells.
-  for (int y = 6; y < 36; ++y)
-    for (int x = 0; x < 16; ++x) known(x, y) = 1;
+  for (const auto [x, y] : test::cells({0, 6, 16, 36})) known(x, y) = 1;
   const Grid<std::uint8_t> lakes = find_hole_lakes(dem, 150, known);
   EXPECT_EQ(lakes(10, 20), 1);
   EXPECT_EQ(lakes(19, 39), 1);
@@ -114,10 +109,9 @@ Dem shore() {
   Raster<float> raster;
   raster.cells = Grid<float>(lake_side, lake_side);
   raster.transform = {0.0, 10.0 * lake_side, 10.0, 10.0};
-  for (int y = 0; y < lake_side; ++y)
-    for (int x = 0; x < lake_side; ++x)
-      raster.cells(x, y) = static_cast<float>(900.0 + 2.0 * std::sin(12.9 * x + 78.2 * y) +
-                                              (x < 40 ? 0.0 : 10.0 * (x - 39)));
+  for (const auto [x, y] : test::cells(lake_side, lake_side))
+    raster.cells(x, y) = static_cast<float>(900.0 + 2.0 * std::sin(12.9 * x + 78.2 * y) +
+                                            (x < 40 ? 0.0 : 10.0 * (x - 39)));
   return make_dem(std::move(raster));
 }
 
@@ -137,14 +131,13 @@ TEST(KnownLakes, WaterIsLevelAtTheGroundsOwnLevel) {
   EXPECT_EQ(levels[0].cells, 20U * 30U - 25U);
   EXPECT_EQ(levels[0].bank_share, 0.0);
   level_known_lakes(dem, {one}, levels);
-  for (int y = 0; y < lake_side; ++y)
-    for (int x = 0; x < lake_side; ++x) {
-      const glm::dvec2 p = dem.transform.to_crs(x, y);
-      const bool water = p.x > 100 && p.x < 300 && p.y > 100 && p.y < 400 &&
-                         !(p.x > 150 && p.x < 200 && p.y > 200 && p.y < 250);
-      ASSERT_EQ(dem.altitude_m(x, y),
-                water ? static_cast<float>(*levels[0].level_m) : before.altitude_m(x, y));
-    }
+  for (const auto [x, y] : test::cells(lake_side, lake_side)) {
+    const glm::dvec2 p = dem.transform.to_crs(x, y);
+    const bool water = p.x > 100 && p.x < 300 && p.y > 100 && p.y < 400 &&
+                       !(p.x > 150 && p.x < 200 && p.y > 200 && p.y < 250);
+    ASSERT_EQ(dem.altitude_m(x, y),
+              water ? static_cast<float>(*levels[0].level_m) : before.altitude_m(x, y));
+  }
 }
 
 TEST(KnownLakes, AnOutlineThatReachesUpTheBankDoesNotLiftTheWater) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/grids.h"
+
 namespace belvedere {
 namespace {
 
@@ -18,15 +20,14 @@ LandCover drawn(const std::vector<std::string>& rows) {
       {Grid<LandCoverClass>(static_cast<int>(rows[0].size()), static_cast<int>(rows.size())),
        {0.0, 0.0, 10.0, 10.0},
        ""}};
-  for (int y = 0; y < cover.classes.cells.height(); ++y)
-    for (int x = 0; x < cover.classes.cells.width(); ++x) {
-      const char c = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
-      cover.classes.cells(x, y) = c == 'f'   ? forest
-                                  : c == 'r' ? rock
-                                  : c == 'w' ? water
-                                  : c == 'h' ? settlement
-                                             : snow;
-    }
+  for (const auto [x, y] : test::cells(cover.classes.cells)) {
+    const char c = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+    cover.classes.cells(x, y) = c == 'f'   ? forest
+                                : c == 'r' ? rock
+                                : c == 'w' ? water
+                                : c == 'h' ? settlement
+                                           : snow;
+  }
   return cover;
 }
 
@@ -112,15 +113,14 @@ LandCover snowfield(double cell_m, double radius_m, double lake_m = 1e9) {
   const int side = static_cast<int>(1600.0 / cell_m);
   LandCover cover{
       {Grid<LandCoverClass>(side, side, scree), {680000.0, 5240000.0, cell_m, cell_m}, ""}};
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      const double east = (x + .5) * cell_m - 800.0;
-      const double south = (y + .5) * cell_m - 800.0;
-      if (east > lake_m)
-        cover.classes.cells(x, y) = water;
-      else if (east * east + south * south <= radius_m * radius_m)
-        cover.classes.cells(x, y) = snow;
-    }
+  for (const auto [x, y] : test::cells(side, side)) {
+    const double east = (x + .5) * cell_m - 800.0;
+    const double south = (y + .5) * cell_m - 800.0;
+    if (east > lake_m)
+      cover.classes.cells(x, y) = water;
+    else if (east * east + south * south <= radius_m * radius_m)
+      cover.classes.cells(x, y) = snow;
+  }
   return cover;
 }
 
@@ -144,15 +144,14 @@ TEST(LandCoverErosion, WhatLiesAroundTakesThePlaceAndShoresStay) {
   const LandCover before = snowfield(20.0, 600.0, 200.0);
   const LandCover after = erode_land_cover(before, {{snow, 2}}, 1);
   bool shore = true;
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 80; ++x) {
-      const LandCoverClass was = before.classes.cells(x, y);
-      const LandCoverClass is = after.classes.cells(x, y);
-      EXPECT_TRUE(was == snow || is == was);
-      EXPECT_TRUE(was != snow || is == snow || is == scree);
-      if (x == 49 && std::abs(y - 40) < 8)
-        shore = shore && is == snow;  // far from scree, beside the lake
-    }
+  for (const auto [x, y] : test::cells(80, 80)) {
+    const LandCoverClass was = before.classes.cells(x, y);
+    const LandCoverClass is = after.classes.cells(x, y);
+    EXPECT_TRUE(was == snow || is == was);
+    EXPECT_TRUE(was != snow || is == snow || is == scree);
+    if (x == 49 && std::abs(y - 40) < 8)
+      shore = shore && is == snow;  // far from scree, beside the lake
+  }
   EXPECT_TRUE(shore);
   EXPECT_LT(radius_m(after), radius_m(before));
 }
@@ -169,13 +168,12 @@ TEST(LandCoverErosion, AWindowAgreesWithTheWhole) {
   const LandCover whole = snowfield(20.0, 600.0);
   LandCover window{
       {Grid<LandCoverClass>(50, 50), {680000.0 + 20 * 20.0, 5240000.0 - 2 * 20.0, 20.0, 20.0}, ""}};
-  for (int y = 0; y < 50; ++y)
-    for (int x = 0; x < 50; ++x) window.classes.cells(x, y) = whole.classes.cells(x + 20, y + 2);
+  for (const auto [x, y] : test::cells(50, 50))
+    window.classes.cells(x, y) = whole.classes.cells(x + 20, y + 2);
   const LandCover all = erode_land_cover(whole, {{snow, 1}}, 4);
   const LandCover part = erode_land_cover(window, {{snow, 1}}, 4);
-  for (int y = 12; y < 38; ++y)
-    for (int x = 12; x < 38; ++x)
-      EXPECT_EQ(part.classes.cells(x, y), all.classes.cells(x + 20, y + 2)) << x << " " << y;
+  for (const auto [x, y] : test::cells({12, 12, 38, 38}))
+    EXPECT_EQ(part.classes.cells(x, y), all.classes.cells(x + 20, y + 2)) << x << " " << y;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "terrain/io/dem.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/terrain/io/raster_files.h"
 
@@ -23,8 +24,8 @@ class LandCoverFiles : public RasterFiles {};
 LandCover make_cover(int width, int height,
                      const std::function<LandCoverClass(double, double)>& at_centre) {
   LandCover cover{{Grid<LandCoverClass>(width, height), {0.0, 0.0, 1.0, 1.0}, ""}};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) cover.classes.cells(x, y) = at_centre(x + 0.5, y + 0.5);
+  for (const auto [x, y] : test::cells(width, height))
+    cover.classes.cells(x, y) = at_centre(x + 0.5, y + 0.5);
   return cover;
 }
 
@@ -105,10 +106,9 @@ TEST(LandCoverAt, IsTheLargestSplineMembership) {
   for (double y = -3.013; y < 22.0; y += 0.173)
     for (double x = -3.007; x < 26.0; x += 0.191) {
       std::array<double, land_cover_class_count> membership{};
-      for (int v = -8; v < 30; ++v)
-        for (int u = -8; u < 34; ++u)
-          membership[static_cast<std::size_t>(cover.classes.cells.clamped(u, v))] +=
-              spline(u + 0.5 - x) * spline(v + 0.5 - y);
+      for (const auto [u, v] : test::cells({-8, -8, 34, 30}))
+        membership[static_cast<std::size_t>(cover.classes.cells.clamped(u, v))] +=
+            spline(u + 0.5 - x) * spline(v + 0.5 - y);
       const auto found = static_cast<std::size_t>(cover.at(x, -y));
       for (std::size_t c = 0; c < membership.size(); ++c)
         ASSERT_GE(membership[found], membership[c] - 1e-9) << x << ' ' << y;

@@ -1,6 +1,5 @@
 #include "terrain/cover/layer_inputs.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "base/grid.h"
 #include "base/random.h"
 #include "terrain/cover/ground_variables.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -22,10 +22,9 @@ Dem ground(int width, int height, double cell_m,
   dem.filled = Grid<std::uint8_t>(width, height, 0);
   dem.transform = {1000.0, 5000.0, cell_m, cell_m};
   // Metres east and north of the centre.
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      dem.altitude_m(x, y) =
-          static_cast<float>(altitude(cell_m * (x - width / 2), -cell_m * (y - height / 2)));
+  for (const auto [x, y] : test::cells(width, height))
+    dem.altitude_m(x, y) =
+        static_cast<float>(altitude(cell_m * (x - width / 2), -cell_m * (y - height / 2)));
   return dem;
 }
 
@@ -58,11 +57,10 @@ TEST(LayerInputs, WindowsLookBeyondThemselves) {
     const Grid<float> alone = one(window, name);
     float apart = 0.F;
     float apart_alone = 0.F;
-    for (int y = 15; y < 95; ++y)
-      for (int x = 15; x < 105; ++x) {
-        apart = std::max(apart, std::abs(joined(x, y) - of_whole(x, y)));
-        apart_alone = std::max(apart_alone, std::abs(alone(x, y) - of_whole(x, y)));
-      }
+    for (const auto [x, y] : test::cells({15, 15, 105, 95})) {
+      apart = std::max(apart, std::abs(joined(x, y) - of_whole(x, y)));
+      apart_alone = std::max(apart_alone, std::abs(alone(x, y) - of_whole(x, y)));
+    }
     EXPECT_LT(apart, 1.5F) << name;
     if (std::string(name) == "relief_4000") {
       EXPECT_GT(apart_alone, 30.F);

@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "terrain/cover/land_cover.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -91,19 +92,17 @@ TEST(MapCover, AreasOfAnyFormAreExact) {
 // An area's corners and edges on whole numbers, where boxes and cells lie as well.
 TEST(MapCover, NeighboursLeaveNeitherGapNorOverlap) {
   std::vector<CoverArea> areas;
-  for (int y = 0; y < 15; ++y)
-    for (int x = 0; x < 20; ++x) {
-      const glm::dvec2 at = low + 100.0 * glm::dvec2(x, y);
-      areas.push_back({.rings = {box(at.x, at.y, at.x + 100.0, at.y + 100.0)},
-                       .painted_as = (x + y) % 2 == 0 ? forest : pasture});
-    }
+  for (const auto [x, y] : test::cells(20, 15)) {
+    const glm::dvec2 at = low + 100.0 * glm::dvec2(x, y);
+    areas.push_back({.rings = {box(at.x, at.y, at.x + 100.0, at.y + 100.0)},
+                     .painted_as = (x + y) % 2 == 0 ? forest : pasture});
+  }
   const MapCover map(areas, {}, low, high);
-  for (int y = 0; y < 1500; y += 25)
-    for (int x = 0; x < 2000; x += 25) {
-      const glm::dvec2 position = low + glm::dvec2(x + 0.5, y + 0.5);
-      ASSERT_EQ(map.at(position), (x / 100 + y / 100) % 2 == 0 ? forest : pasture);
-      ASSERT_NE(map.at(low + glm::dvec2(x, y)), sky);  // on the edges themselves
-    }
+  for (const auto [x, y] : test::cells({0, 0, 2000, 1500}, 25)) {
+    const glm::dvec2 position = low + glm::dvec2(x + 0.5, y + 0.5);
+    ASSERT_EQ(map.at(position), (x / 100 + y / 100) % 2 == 0 ? forest : pasture);
+    ASSERT_NE(map.at(low + glm::dvec2(x, y)), sky);  // on the edges themselves
+  }
 }
 
 TEST(MapCover, HigherRanksLieOnTopAndOfEqualOnesTheLater) {
@@ -186,8 +185,7 @@ TEST(MapCover, LiesOverClassesWithItsOwnOutline) {
 // Inferred lakes give way to known ones; others stay.
 TEST(MapCover, InferredWaterByAKnownLakeGoes) {
   LandCover cover = plain(20, pasture);
-  for (int y = 4; y < 10; ++y)
-    for (int x = 4; x < 10; ++x) cover.classes.cells(x, y) = water;
+  for (const auto [x, y] : test::cells({4, 4, 10, 10})) cover.classes.cells(x, y) = water;
   cover.classes.cells(15, 15) = water;
   const CoverArea lake{
       .rings = {box(600, 1100, 900, 1400)}, .painted_as = water, .rank = 1.0, .still = true};

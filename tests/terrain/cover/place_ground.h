@@ -16,6 +16,7 @@
 #include "terrain/cover/class_rules.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/dem.h"
+#include "tests/grids.h"
 
 namespace belvedere::test {
 
@@ -37,16 +38,15 @@ inline Dem ground_at(const MountainPlace& place) {
   dem.transform = {-0.5 * size * cell, 0.5 * size * cell, cell, cell};
   dem.crs = normalize_crs(fmt::format("+proj=laea +lat_0={} +lon_0={} +datum=WGS84 +units=m",
                                       place.latitude_deg, place.longitude_deg));
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      const double east = x * cell;
-      const double away = std::abs((y - size / 2) * cell + 250.0 * std::sin(east / 1300.0));
-      const double up = std::clamp((away - 1200.0) / 4300.0, 0.0, 1.0);
-      const double crests = 1.0 + 0.15 * std::sin(east / 450.0 + y * 0.05);
-      dem.altitude_m(x, y) = static_cast<float>(
-          place.floor_m + (place.top_m - place.floor_m) * std::pow(up, 1.3) * crests +
-          0.006 * away + 0.001 * east);
-    }
+  for (const auto [x, y] : test::cells(size, size)) {
+    const double east = x * cell;
+    const double away = std::abs((y - size / 2) * cell + 250.0 * std::sin(east / 1300.0));
+    const double up = std::clamp((away - 1200.0) / 4300.0, 0.0, 1.0);
+    const double crests = 1.0 + 0.15 * std::sin(east / 450.0 + y * 0.05);
+    dem.altitude_m(x, y) = static_cast<float>(
+        place.floor_m + (place.top_m - place.floor_m) * std::pow(up, 1.3) * crests + 0.006 * away +
+        0.001 * east);
+  }
   return dem;
 }
 

@@ -11,6 +11,7 @@
 #include "base/grid.h"
 #include "terrain/cover/class_rules.h"
 #include "terrain/cover/class_rules_inputs.h"
+#include "tests/grids.h"
 #include "tests/terrain/cover/class_rules_ground.h"
 
 namespace belvedere {
@@ -27,16 +28,15 @@ TEST(OwnShare, GrowsFromTheEdgeOfThePartAlongARaggedLine) {
   const Grid<float> share = own_share(around, fine, 200, 200, 7);
   float min = 1.F;
   float max = 0.F;
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x) {
-      const int from_edge = std::min({x - 20, 179 - x, y - 30, 169 - y});
-      if (from_edge <= 0) {
-        EXPECT_EQ(share(x, y), 0.F) << x << ' ' << y;
-      }
-      if (from_edge >= 32) {
-        EXPECT_EQ(share(x, y), 1.F) << x << ' ' << y;
-      }
+  for (const auto [x, y] : test::cells(200, 200)) {
+    const int from_edge = std::min({x - 20, 179 - x, y - 30, 169 - y});
+    if (from_edge <= 0) {
+      EXPECT_EQ(share(x, y), 0.F) << x << ' ' << y;
     }
+    if (from_edge >= 32) {
+      EXPECT_EQ(share(x, y), 1.F) << x << ' ' << y;
+    }
+  }
   // Position of a straight line at half the distance.
   for (int y = 70; y < 130; ++y)
     min = std::min(min, share(36, y)), max = std::max(max, share(36, y));
@@ -49,31 +49,28 @@ TEST(OwnShare, HangsOnPlacesAndSeed) {
   // The same part in a window that begins elsewhere.
   const GeoTransform moved{fine.origin_x - 5 * 30.0, fine.origin_y + 4 * 30.0, 30.0, 30.0};
   const Grid<float> other = own_share({nothing, {25, 34, 185, 174}, 32}, moved, 205, 204, 7);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x) EXPECT_NEAR(share(x, y), other(x + 5, y + 4), 1e-5F);
+  for (const auto [x, y] : test::cells(200, 200))
+    EXPECT_NEAR(share(x, y), other(x + 5, y + 4), 1e-5F);
   EXPECT_NE(share, own_share(around, fine, 200, 200, 8));
 }
 
 TEST(JoinInput, IsThatOfTheGroundAroundAtTheEdgeAndItsOwnInside) {
-  Grid<float> there(110, 110);
-  for (int y = 0; y < 110; ++y)
-    for (int x = 0; x < 110; ++x) there(x, y) = static_cast<float>(2 * x - 3 * y);
+  const Grid<float> there = test::grid_of(110, 110, [&](int x, int y) { return 2 * x - 3 * y; });
   const Grid<float> share = own_share(around, fine, 200, 200, 7);
   Grid<float> own(200, 200, 1000.F);
   join_input(own, there, share, fine, coarse);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x) {
-      const float expected = static_cast<float>(x) - 1.5F * static_cast<float>(y);
-      const int from_edge = std::min({x - 20, 179 - x, y - 30, 169 - y});
-      if (from_edge <= 0) {
-        EXPECT_NEAR(own(x, y), expected, 1e-3F) << x << ' ' << y;
-      }
-      if (from_edge >= 32) {
-        EXPECT_EQ(own(x, y), 1000.F);
-      }
-      EXPECT_GE(own(x, y), expected - 1e-3F);
-      EXPECT_LE(own(x, y), 1000.F);
+  for (const auto [x, y] : test::cells(200, 200)) {
+    const float expected = static_cast<float>(x) - 1.5F * static_cast<float>(y);
+    const int from_edge = std::min({x - 20, 179 - x, y - 30, 169 - y});
+    if (from_edge <= 0) {
+      EXPECT_NEAR(own(x, y), expected, 1e-3F) << x << ' ' << y;
     }
+    if (from_edge >= 32) {
+      EXPECT_EQ(own(x, y), 1000.F);
+    }
+    EXPECT_GE(own(x, y), expected - 1e-3F);
+    EXPECT_LE(own(x, y), 1000.F);
+  }
   Grid<float> none;
   join_input(none, there, share, fine, coarse);
   EXPECT_TRUE(none.empty());
@@ -116,11 +113,10 @@ TEST(RuleGround, WideReliefOfAWindowReachesOverTheWhole) {
   float apart = 0.F;
   float apart_alone = 0.F;
   // At the window's edge, in its halo, the spline between blocks of a kilometre ends.
-  for (int y = 48; y < 82; ++y)
-    for (int x = 48; x < 92; ++x) {
-      apart = std::max(apart, std::abs(joined(x, y) - of_whole(x, y)));
-      apart_alone = std::max(apart_alone, std::abs(alone(x, y) - of_whole(x, y)));
-    }
+  for (const auto [x, y] : test::cells({48, 48, 92, 82})) {
+    apart = std::max(apart, std::abs(joined(x, y) - of_whole(x, y)));
+    apart_alone = std::max(apart_alone, std::abs(alone(x, y) - of_whole(x, y)));
+  }
   EXPECT_LT(apart, 2.F);
   EXPECT_GT(apart_alone, 5.F * apart) << "the window alone knows less than 4 km around";
 }

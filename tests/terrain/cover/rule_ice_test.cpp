@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstddef>
+
+#include "tests/grids.h"
 
 namespace belvedere::class_rules {
 namespace {
@@ -17,18 +18,15 @@ Dem valley(int step, int y0, int y1) {
   dem.transform = {-15.0 * (step - 1), 15.0 * (step - 1) - 30.0 * y0, 30.0 * step, 30.0 * step};
   dem.altitude_m = Grid<float>(columns / step, (y1 - y0) / step);
   dem.filled = Grid<std::uint8_t>(dem.width(), dem.height(), 0);
-  for (int y = 0; y < dem.height(); ++y)
-    for (int x = 0; x < dem.width(); ++x)
-      dem.altitude_m(x, y) = static_cast<float>(3200.0 - 0.08 * 30.0 * (y0 + y * step) +
-                                                0.25 * 30.0 * std::abs(x * step - columns / 2));
+  for (const auto [x, y] : test::cells(dem))
+    dem.altitude_m(x, y) = static_cast<float>(3200.0 - 0.08 * 30.0 * (y0 + y * step) +
+                                              0.25 * 30.0 * std::abs(x * step - columns / 2));
   return dem;
 }
 // Snow on the uppermost 150 rows, and below it a little more melts than falls.
 Grid<float> balance(int step, int y0, int y1) {
-  Grid<float> out(columns / step, (y1 - y0) / step);
-  for (int y = 0; y < out.height(); ++y)
-    for (int x = 0; x < out.width(); ++x) out(x, y) = y0 + y * step < 150 ? 1.F : -1.5F;
-  return out;
+  return test::grid_of(columns / step, (y1 - y0) / step,
+                       [&](int, int y) { return y0 + y * step < 150 ? 1.F : -1.5F; });
 }
 
 TEST(FlowingIce, GoesOnIntoAWindowBelowItsSnow) {
@@ -48,15 +46,14 @@ TEST(FlowingIce, GoesOnIntoAWindowBelowItsSnow) {
   const RuleIce alone = flowing_ice(balance(1, y0, rows), window);
   const RuleIce joined = flowing_ice(balance(1, y0, rows), window, entries);
   int of_whole = 0, of_joined = 0, both = 0;
-  for (int y = 0; y < window.height(); ++y)
-    for (int x = 0; x < columns; ++x) {
-      EXPECT_EQ(alone.covered(x, y), 0.F);
-      const bool is = whole.covered(x, y0 + y) > 0.5F;
-      const bool joins = joined.covered(x, y) > 0.5F;
-      of_whole += is ? 1 : 0;
-      of_joined += joins ? 1 : 0;
-      both += is && joins ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(columns, window.height())) {
+    EXPECT_EQ(alone.covered(x, y), 0.F);
+    const bool is = whole.covered(x, y0 + y) > 0.5F;
+    const bool joins = joined.covered(x, y) > 0.5F;
+    of_whole += is ? 1 : 0;
+    of_joined += joins ? 1 : 0;
+    both += is && joins ? 1 : 0;
+  }
   EXPECT_GT(of_whole, 2000);
   EXPECT_GT(both, 0.85 * (of_whole + of_joined - both))
       << of_whole << " cells of the whole, " << of_joined << " of the window";

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "base/parallel.h"
 #include "terrain/shape/derivatives.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/notes.h"
 
 namespace belvedere {
@@ -31,13 +31,12 @@ struct Valley {
   GeoTransform transform{0.0, height* cell_m, cell_m, cell_m};
 
   explicit Valley(int mouth_column = 350) {
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const double aside = std::abs(y - height / 2) * cell_m;
-        altitude_m(x, y) = static_cast<float>(600.0 + 0.45 * std::max(0.0, aside - 1500.0));
-        floor(x, y) = aside < 1500.0 ? 1.F : 0.F;
-        slope(x, y) = aside < 1500.0 ? 0.F : 24.F;
-      }
+    for (const auto [x, y] : test::cells(width, height)) {
+      const double aside = std::abs(y - height / 2) * cell_m;
+      altitude_m(x, y) = static_cast<float>(600.0 + 0.45 * std::max(0.0, aside - 1500.0));
+      floor(x, y) = aside < 1500.0 ? 1.F : 0.F;
+      slope(x, y) = aside < 1500.0 ? 0.F : 24.F;
+    }
     for (int x = 0; x < width; ++x)
       catchment_km2(x, height / 2) = 600.F + 0.01F * static_cast<float>(x);
     for (int y = 0; y < height / 2; ++y)
@@ -172,8 +171,7 @@ TEST(Towns, NobodyIsGuessedWhereTheLandFeedsNobody) {
   const Grid<float> none(Valley::width, Valley::height, 0.F);
   const Grid<float> all(Valley::width, Valley::height, 1.F);
   Grid<float> east = none;
-  for (int y = 0; y < Valley::height; ++y)
-    for (int x = 350; x < Valley::width; ++x) east(x, y) = 1.F;
+  for (const auto [x, y] : test::cells({350, 0, Valley::width, Valley::height})) east(x, y) = 1.F;
   TownParameters p;
   p.known = {{{3000.0, 3300.0}, 700.0}};
   const auto sites_with = [&](const Grid<float>* suitability) {
@@ -206,11 +204,10 @@ TEST(Towns, LandFeedsPeopleByWaterAndWarmth) {
 // A terrace far from any floor, in the hills, has no hamlet; one above a valley has.
 TEST(Towns, HamletsHaveAFloorWithinReach) {
   Valley valley;
-  for (int y = 0; y < Valley::height; ++y)
-    for (int x = 0; x < Valley::width; ++x) {
-      valley.slope(x, y) = valley.floor(x, y) > 0.5F ? 0.F : 5.F;
-      valley.south(x, y) = 1.F;
-    }
+  for (const auto [x, y] : test::cells(Valley::width, Valley::height)) {
+    valley.slope(x, y) = valley.floor(x, y) > 0.5F ? 0.F : 5.F;
+    valley.south(x, y) = 1.F;
+  }
   const auto hamlets = [&] {
     int count = 0;
     for (const TownSite& site : find_town_sites(valley.ground(), {}))

@@ -8,6 +8,7 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "terrain/shape/valley_floor.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -27,8 +28,8 @@ float ridge_height(double north) {
 
 Grid<float> ridges() {
   Grid<float> z(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) z(x, y) = ridge_height(northern_frame.to_crs(x, y).y);
+  for (const auto [x, y] : test::cells(width, height))
+    z(x, y) = ridge_height(northern_frame.to_crs(x, y).y);
   return z;
 }
 

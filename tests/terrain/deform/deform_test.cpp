@@ -7,6 +7,7 @@
 
 #include "base/math.h"
 #include "base/parallel.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -16,10 +17,8 @@ const GeoTransform innsbruck{680000.0, 5260000.0, 30.0, 30.0};
 
 Grid<float> hills() {
   Grid<float> grid(40, 30);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x)
-      grid(x, y) = 1500.F + 37.123F * static_cast<float>((x * 7 + y * 13) % 11);
-  }
+  for (const auto [x, y] : test::cells(40, 30))
+    grid(x, y) = 1500.F + 37.123F * static_cast<float>((x * 7 + y * 13) % 11);
   return grid;
 }
 
@@ -36,12 +35,10 @@ TEST(Deform, NothingAskedIsTheIdentity) {
   const glm::dvec3 origin(690000.0, 5250000.0, 0.0);
   const DeformedSurface surface = deform(altitude, innsbruck, {691000.0, 5302000.0}, origin, {});
   EXPECT_EQ(surface.origin, origin);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x) {
-      const glm::dvec2 position = innsbruck.to_crs(x, y);
-      ASSERT_EQ(surface.vertices_m(x, y),
-                glm::vec3(position.x - origin.x, position.y - origin.y, altitude(x, y)));
-    }
+  for (const auto [x, y] : test::cells(40, 30)) {
+    const glm::dvec2 position = innsbruck.to_crs(x, y);
+    ASSERT_EQ(surface.vertices_m(x, y),
+              glm::vec3(position.x - origin.x, position.y - origin.y, altitude(x, y)));
   }
   const glm::dvec3 point(123.25, -9.5, 777.125);
   EXPECT_EQ(deform_point(point, {0.0, 0.0}, {}), point);
@@ -92,11 +89,9 @@ TEST(Deform, VertexEqualsDeformPoint) {
   const glm::dvec3 origin(viewer, 0.0);
   const DeformParameters p = panorama();
   const DeformedSurface surface = deform(altitude, innsbruck, viewer, origin, p);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x) {
-      const glm::dvec3 point = deform_point({innsbruck.to_crs(x, y), altitude(x, y)}, viewer, p);
-      ASSERT_EQ(surface.vertices_m(x, y), glm::vec3(point - origin)) << x << ' ' << y;
-    }
+  for (const auto [x, y] : test::cells(40, 30)) {
+    const glm::dvec3 point = deform_point({innsbruck.to_crs(x, y), altitude(x, y)}, viewer, p);
+    ASSERT_EQ(surface.vertices_m(x, y), glm::vec3(point - origin)) << x << ' ' << y;
   }
 }
 
@@ -107,14 +102,12 @@ TEST(Deform, UtmCoordinatesKeepCentimetres) {
   const glm::dvec2 viewer(691234.56, 5302017.89);
   const DeformParameters p = panorama();
   const DeformedSurface surface = deform(altitude, innsbruck, viewer, glm::dvec3(viewer, 0.0), p);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x) {
-      const glm::dvec3 exact = deform_point({innsbruck.to_crs(x, y), altitude(x, y)}, viewer, p);
-      const glm::dvec3 stored = glm::dvec3(surface.vertices_m(x, y)) + surface.origin;
-      ASSERT_LT(std::abs(stored.x - exact.x), 0.005);
-      ASSERT_LT(std::abs(stored.y - exact.y), 0.005);
-      ASSERT_LT(std::abs(stored.z - exact.z), 0.005);
-    }
+  for (const auto [x, y] : test::cells(40, 30)) {
+    const glm::dvec3 exact = deform_point({innsbruck.to_crs(x, y), altitude(x, y)}, viewer, p);
+    const glm::dvec3 stored = glm::dvec3(surface.vertices_m(x, y)) + surface.origin;
+    ASSERT_LT(std::abs(stored.x - exact.x), 0.005);
+    ASSERT_LT(std::abs(stored.y - exact.y), 0.005);
+    ASSERT_LT(std::abs(stored.z - exact.z), 0.005);
   }
 }
 
@@ -141,13 +134,11 @@ TEST(Deform, VertexEqualsDeformPointWithEverythingAsked) {
   const DeformParameters p = rearranged();
   const DeformedSurface surface = deform(altitude, innsbruck, viewer, glm::dvec3(viewer, 0.0), p);
   int moved = 0;
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x) {
-      const glm::dvec3 from(innsbruck.to_crs(x, y), altitude(x, y));
-      const glm::dvec3 point = deform_point(from, viewer, p);
-      ASSERT_EQ(surface.vertices_m(x, y), glm::vec3(point - surface.origin)) << x << ' ' << y;
-      moved += point.x != from.x ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(40, 30)) {
+    const glm::dvec3 from(innsbruck.to_crs(x, y), altitude(x, y));
+    const glm::dvec3 point = deform_point(from, viewer, p);
+    ASSERT_EQ(surface.vertices_m(x, y), glm::vec3(point - surface.origin)) << x << ' ' << y;
+    moved += point.x != from.x ? 1 : 0;
   }
   EXPECT_GT(moved, 100);
   EXPECT_LT(moved, 1000);
@@ -244,13 +235,12 @@ TEST(Deform, ASummitRisesAloneAndSmoothly) {
 
 TEST(Deform, SourceIsTheInverseOfHandles) {
   const Deformation deformation(rearranged(), {691234.5, 5302017.25});
-  for (int y = 0; y < 30; ++y)
-    for (int x = 0; x < 40; ++x) {
-      const glm::dvec2 position = innsbruck.to_crs(x + 0.3, y + 0.1);
-      const auto source = deformation.source_of(glm::dvec2(deformation.point({position, 1500.0})));
-      ASSERT_TRUE(source);
-      ASSERT_LT(glm::length(*source - position), 0.01) << x << ' ' << y;
-    }
+  for (const auto [x, y] : test::cells(40, 30)) {
+    const glm::dvec2 position = innsbruck.to_crs(x + 0.3, y + 0.1);
+    const auto source = deformation.source_of(glm::dvec2(deformation.point({position, 1500.0})));
+    ASSERT_TRUE(source);
+    ASSERT_LT(glm::length(*source - position), 0.01) << x << ' ' << y;
+  }
 }
 
 TEST(Deform, LightSeesTheRearrangedShapeWithoutTheBend) {
@@ -442,12 +432,11 @@ TEST(Fold, AgreesWithTheSignOfAreasAllOverTheGrid) {
   const auto area = [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   };
-  for (int y = 0; y < 199; ++y)
-    for (int x = 0; x < 199; ++x) {
-      turned_over += area(position(x, y), position(x, y + 1), position(x + 1, y)) <= 0.0 ? 1 : 0;
-      turned_over +=
-          area(position(x + 1, y + 1), position(x + 1, y), position(x, y + 1)) <= 0.0 ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(199, 199)) {
+    turned_over += area(position(x, y), position(x, y + 1), position(x + 1, y)) <= 0.0 ? 1 : 0;
+    turned_over +=
+        area(position(x + 1, y + 1), position(x + 1, y), position(x, y + 1)) <= 0.0 ? 1 : 0;
+  }
   EXPECT_GT(turned_over, 10U);
   EXPECT_EQ(find_folds(flat, frame, deformation).size(), turned_over);
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/config.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/terrain/fetch/served_tiles.h"
 
@@ -128,12 +129,11 @@ TEST_F(FetchArea, ATileThatIsNotThereIsSea) {
   const Raster<float> dem = elevation();
   const PointTransform to_degrees(dem.crs, "EPSG:4326");
   int sea = 0;
-  for (int y = 0; y < dem.cells.height(); ++y)
-    for (int x = 0; x < dem.cells.width(); ++x)
-      if (to_degrees.apply(dem.transform.to_crs(x, y)).x > 10.0) {
-        EXPECT_EQ(dem.cells(x, y), 0.0F);
-        ++sea;
-      }
+  for (const auto [x, y] : test::cells(dem.cells))
+    if (to_degrees.apply(dem.transform.to_crs(x, y)).x > 10.0) {
+      EXPECT_EQ(dem.cells(x, y), 0.0F);
+      ++sea;
+    }
   EXPECT_GT(sea, 500);
   EXPECT_GT(*std::max_element(dem.cells.begin(), dem.cells.end()), 1000.0F);
 }
@@ -244,17 +244,16 @@ TEST_F(FetchArea, LandCoverKeepsItsCodesAndGetsItsSea) {
   const Raster<std::int32_t> read = read_codes(source);
   const PointTransform to_degrees(read.crs, "EPSG:4326");
   int unknown = 0;
-  for (int y = 0; y < read.cells.height(); ++y)
-    for (int x = 0; x < read.cells.width(); ++x) {
-      const glm::dvec2 at = to_degrees.apply(read.transform.to_crs(x, y));
-      const double cell = 3.0 / 1200.0;
-      if (std::hypot(at.x - 12.2, at.y - 43.5) < 0.05) {
-        unknown += read.cells(x, y) < 0 ? 1 : 0;
-        continue;
-      }
-      if (std::abs(at.x - 11.95) < cell || std::abs(at.y - 43.5) < cell) continue;
-      ASSERT_EQ(read.cells(x, y), static_cast<int>(codes(at.x, at.y))) << at.x << ", " << at.y;
+  for (const auto [x, y] : test::cells(read.cells)) {
+    const glm::dvec2 at = to_degrees.apply(read.transform.to_crs(x, y));
+    const double cell = 3.0 / 1200.0;
+    if (std::hypot(at.x - 12.2, at.y - 43.5) < 0.05) {
+      unknown += read.cells(x, y) < 0 ? 1 : 0;
+      continue;
     }
+    if (std::abs(at.x - 11.95) < cell || std::abs(at.y - 43.5) < cell) continue;
+    ASSERT_EQ(read.cells(x, y), static_cast<int>(codes(at.x, at.y))) << at.x << ", " << at.y;
+  }
   EXPECT_GT(unknown, 100);
   EXPECT_THAT(progress_.notes, HasSubstr("their class is unknown"));
 }

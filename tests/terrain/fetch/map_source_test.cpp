@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "base/text/embedded.h"
 #include "terrain/fetch/tile_mosaic.h"
 #include "tests/files.h"

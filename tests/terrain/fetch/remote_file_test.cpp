@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 
 #include "base/cache/cache.h"
 #include "tests/terrain/fetch/served_tiles.h"

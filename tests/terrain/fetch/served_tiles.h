@@ -14,6 +14,7 @@
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/http_server.h"
 
 namespace belvedere {
@@ -76,11 +77,10 @@ class ServedTiles : public ::testing::Test {
     Raster<float> raster{Grid<float>(columns, source.rows),
                          {corner - shift * dx, south + source.tile_deg.y + shift * dy, dx, dy},
                          normalize_crs("EPSG:4326")};
-    for (int y = 0; y < source.rows; ++y)
-      for (int x = 0; x < columns; ++x) {
-        const glm::dvec2 at = raster.transform.to_crs(x, y);
-        raster.cells(x, y) = static_cast<float>(value(at.x + (west - corner), at.y));
-      }
+    for (const auto [x, y] : test::cells(columns, source.rows)) {
+      const glm::dvec2 at = raster.transform.to_crs(x, y);
+      raster.cells(x, y) = static_cast<float>(value(at.x + (west - corner), at.y));
+    }
     const std::string address = tile_address(source, tile, "http://x");
     const std::string file = path("served/" + address.substr(9));
     std::filesystem::create_directories(std::filesystem::path(file).parent_path());
@@ -142,12 +142,11 @@ class ServedTiles : public ::testing::Test {
                               const std::function<double(double, double)>& value) {
     const PointTransform to_degrees(raster.crs, "EPSG:4326");
     double worst = 0.0;
-    for (int y = 0; y < raster.cells.height(); ++y)
-      for (int x = 0; x < raster.cells.width(); ++x) {
-        const glm::dvec2 at = to_degrees.apply(raster.transform.to_crs(x, y));
-        const double error = std::abs(raster.cells(x, y) - value(at.x, at.y));
-        worst = std::isnan(error) ? 1e9 : std::max(worst, error);
-      }
+    for (const auto [x, y] : test::cells(raster.cells)) {
+      const glm::dvec2 at = to_degrees.apply(raster.transform.to_crs(x, y));
+      const double error = std::abs(raster.cells(x, y) - value(at.x, at.y));
+      worst = std::isnan(error) ? 1e9 : std::max(worst, error);
+    }
     return worst;
   }
 

@@ -81,20 +81,17 @@ TEST(Destripe, StripesThatChangeOnTheirWayAndLakesThatHaveNone) {
   Grid<float> terrain(clean());
   const auto in_lake = [](int x, int y) { return std::hypot(x - 300.0, y - 250.0) < 30.0; };
   Grid<float> striped(terrain.width(), terrain.height());
-  for (int y = 0; y < terrain.height(); ++y) {
-    for (int x = 0; x < terrain.width(); ++x) {
-      if (in_lake(x, y)) terrain(x, y) = 700.F;
-      // Each stripe changes into another one from the left border to the right.
-      const double share = x / 400.0;
-      const double stripe =
-          1.4 * (std::cos(1.5708 * share) * band(y) + std::sin(1.5708 * share) * band(y + 1000));
-      striped(x, y) = terrain(x, y) + (in_lake(x, y) ? 0.F : static_cast<float>(stripe));
-    }
+  for (const auto [x, y] : test::cells(terrain)) {
+    if (in_lake(x, y)) terrain(x, y) = 700.F;
+    // Each stripe changes into another one from the left border to the right.
+    const double share = x / 400.0;
+    const double stripe =
+        1.4 * (std::cos(1.5708 * share) * band(y) + std::sin(1.5708 * share) * band(y + 1000));
+    striped(x, y) = terrain(x, y) + (in_lake(x, y) ? 0.F : static_cast<float>(stripe));
   }
   const Grid<float> out = destripe(striped, {}, silent_progress());
   EXPECT_LT(rms_difference(terrain, out), 0.4 * rms_difference(terrain, striped));
-  for (int y = 225; y < 275; ++y)
-    for (int x = 285; x < 315; ++x) EXPECT_EQ(out(x, y), 700.F);
+  for (const auto [x, y] : test::cells({285, 225, 315, 275})) EXPECT_EQ(out(x, y), 700.F);
 }
 
 TEST(Destripe, RealMountainsKeepNextToNothingOfMadeUpStripes) {
@@ -104,11 +101,9 @@ TEST(Destripe, RealMountainsKeepNextToNothingOfMadeUpStripes) {
   source.path = path;
   const Grid<float> whole = read_raster(source).cells;
   Grid<float> terrain(700, 300);
-  for (int y = 0; y < 300; ++y)
-    for (int x = 0; x < 700; ++x) terrain(x, y) = whole(x + 300, y + 120);
+  for (const auto [x, y] : test::cells(700, 300)) terrain(x, y) = whole(x + 300, y + 120);
   Grid<float> striped = terrain;
-  for (int y = 0; y < 300; ++y)
-    for (int x = 0; x < 700; ++x) striped(x, y) += static_cast<float>(band(y));
+  for (const auto [x, y] : test::cells(700, 300)) striped(x, y) += static_cast<float>(band(y));
   const Grid<float> out = destripe(striped, {}, silent_progress());
   EXPECT_LT(rms_difference(terrain, out), 0.15 * rms_difference(terrain, striped));
 }

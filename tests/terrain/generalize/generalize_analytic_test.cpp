@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <numbers>
 #include <set>
@@ -16,6 +15,7 @@
 #include "terrain/generalize/mask.h"
 #include "terrain/io/dem.h"
 #include "terrain/synthetic/synthetic.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/terrain/generalize/synthetic_relief.h"
 #include "tests/terrain/shape/terrain_measures.h"
@@ -201,11 +201,10 @@ TEST(GeneralizeArtefacts, NeitherRowsNorColumnsAreFavoured) {
       run(noise, everywhere({1.F, .8F, .5F, .3F, .2F}, {0.F, .2F, .5F, .7F, .8F}));
   double rows = 0.0;
   double columns = 0.0;
-  for (int y = 1; y < 257; ++y)
-    for (int x = 1; x < 257; ++x) {
-      rows += std::pow(static_cast<double>(smooth(x, y)) - smooth(x - 1, y), 2);
-      columns += std::pow(static_cast<double>(smooth(x, y)) - smooth(x, y - 1), 2);
-    }
+  for (const auto [x, y] : test::cells({1, 1, 257, 257})) {
+    rows += std::pow(static_cast<double>(smooth(x, y)) - smooth(x - 1, y), 2);
+    columns += std::pow(static_cast<double>(smooth(x, y)) - smooth(x, y - 1), 2);
+  }
   EXPECT_NEAR(rows / columns, 1.0, 0.02);
 }
 

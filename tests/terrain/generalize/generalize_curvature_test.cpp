@@ -17,6 +17,7 @@
 #include "terrain/io/dem.h"
 #include "terrain/shape/derivatives.h"
 #include "tests/base/reconstruct.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/terrain/generalize/synthetic_relief.h"
 #include "tests/terrain/shape/terrain_measures.h"
@@ -82,9 +83,8 @@ TEST(GeneralizeCurvature, ValleySetLeavesConvexGroundAndRidgeSetConcaveGround) {
   // A fold of one wavelength along x, slightly tilted along y: its crest is at x = 24, its trough
   // at 72.
   Grid<float> fold(96, 64);
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 96; ++x)
-      fold(x, y) = static_cast<float>(2000.0 + 60.0 * std::sin(x / 96.0 * 6.2831853) + 3.0 * y);
+  for (const auto [x, y] : test::cells(96, 64))
+    fold(x, y) = static_cast<float>(2000.0 + 60.0 * std::sin(x / 96.0 * 6.2831853) + 3.0 * y);
   GeneralizeParameters ridges =
       everywhere({1.F, 1.F, 1.F, 1.F}, {0.F, 1.F, 1.F, 1.F}, {0.F, 0.F, 0.F, 0.F});
   GeneralizeParameters valleys =
@@ -132,10 +132,9 @@ TEST(GeneralizeCurvature, HalfMaskLeavesNoSeam) {
   // A crest along the mask's edge: there the change is large, and constant across the edge except
   // for a seam.
   Grid<float> terrain(256, 256);
-  for (int y = 0; y < 256; ++y)
-    for (int x = 0; x < 256; ++x)
-      terrain(x, y) =
-          static_cast<float>(1500.0 + 200.0 * std::cos((x - 127.5) / 64.0 * 6.2831853) + 2.0 * y);
+  for (const auto [x, y] : test::cells(256, 256))
+    terrain(x, y) =
+        static_cast<float>(1500.0 + 200.0 * std::cos((x - 127.5) / 64.0 * 6.2831853) + 2.0 * y);
   const GeneralizeParameters p = everywhere({1.8F, 2.F, 1.5F, 1.F, 1.F});
   Grid<float> half(256, 256);
   for (int y = 0; y < 256; ++y) std::fill_n(half.row(y), 128, 1.F);
@@ -192,12 +191,11 @@ TEST(GeneralizeCurvature, BlurTakesSpikesOffBreakLines) {
     p.blur_cells = static_cast<float>(blur);
     const Grid<float> out = run(terrain, p);
     double sum = 0.0;  // fourth differences: what stands out from both neighbours
-    for (int y = 2; y < 254; ++y)
-      for (int x = 2; x < 254; ++x) {
-        const double d = out(x - 2, y) - 4.0 * out(x - 1, y) + 6.0 * out(x, y) -
-                         4.0 * out(x + 1, y) + out(x + 2, y);
-        sum += d * d;
-      }
+    for (const auto [x, y] : test::cells({2, 2, 254, 254})) {
+      const double d = out(x - 2, y) - 4.0 * out(x - 1, y) + 6.0 * out(x, y) - 4.0 * out(x + 1, y) +
+                       out(x + 2, y);
+      sum += d * d;
+    }
     return std::sqrt(sum);
   };
   EXPECT_LT(spikes(1.5), 0.8 * spikes(0.0));
@@ -206,18 +204,16 @@ TEST(GeneralizeCurvature, BlurTakesSpikesOffBreakLines) {
 TEST(GeneralizeCurvature, RidgesStaySharperThanUnderABlurOfEqualEnergy) {
   // A tilted roof: only its ridge is a break line.
   Grid<float> roof(129, 129);
-  for (int y = 0; y < 129; ++y)
-    for (int x = 0; x < 129; ++x)
-      roof(x, y) = static_cast<float>(2000.0 - 18.0 * std::abs(x - 64) + 4.0 * y +
-                                      15.0 * random_uniform(3, x, y));
+  for (const auto [x, y] : test::cells(129, 129))
+    roof(x, y) = static_cast<float>(2000.0 - 18.0 * std::abs(x - 64) + 4.0 * y +
+                                    15.0 * random_uniform(3, x, y));
   const Grid<float> out = run(roof, everywhere({1.F, .3F, 0.F, 0.F}, {0.F, .7F, 1.F, 1.F}));
   const auto rough = [](const Grid<float>& g) {  // energy of the detail on the slope
     double sum = 0.0;
-    for (int y = 20; y < 110; ++y)
-      for (int x = 20; x < 50; ++x) {
-        const double d = g(x - 1, y) - 2.0 * g(x, y) + g(x + 1, y);
-        sum += d * d;
-      }
+    for (const auto [x, y] : test::cells({20, 20, 50, 110})) {
+      const double d = g(x - 1, y) - 2.0 * g(x, y) + g(x + 1, y);
+      sum += d * d;
+    }
     return sum;
   };
   double low = 0.2;
@@ -276,12 +272,8 @@ TEST(GeneralizeCurvature, EveryPresetIsInRange) {
 TEST(Mask, SlopeMaskKeepsFlatGroundAndTheFootOfTheSlope) {
   // The slope begins at x = 20; two level columns at x = 50 are a ledge, not a flat.
   Grid<float> ground(80, 40);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 80; ++x)
-      ground(x, y) = 15.F * static_cast<float>(x < 20    ? 0
-                                               : x <= 50 ? x - 20
-                                               : x <= 52 ? 30
-                                                         : x - 22);
+  for (const auto [x, y] : test::cells(80, 40))
+    ground(x, y) = 15.F * static_cast<float>(x < 20 ? 0 : x <= 50 ? x - 20 : x <= 52 ? 30 : x - 22);
   const Grid<float> mask = slope_mask(ground, {cell_m, cell_m}, {});
   EXPECT_LE(mask(5, 20), 1e-6F);
   EXPECT_LT(mask(21, 20), 0.15F);  // 26° steep as the next

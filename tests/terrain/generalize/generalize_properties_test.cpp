@@ -10,6 +10,7 @@
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
 #include "terrain/synthetic/synthetic.h"
+#include "tests/grids.h"
 #include "tests/terrain/generalize/synthetic_relief.h"
 #include "tests/terrain/shape/terrain_measures.h"
 
@@ -30,9 +31,8 @@ double ridges(int x, int y) {
 TEST(GeneralizeProperties, ARampOfCentimetresSurvives) {
   const Grid<float> ramp = grid_of(120, 90, [](int x, int) { return 0.01 * x; });
   const Grid<float> out = run(ramp, everywhere({2.F, .5F, 0.F, 3.F}));
-  for (int y = 0; y < 90; ++y)
-    for (int x = 1; x < 120; ++x)
-      ASSERT_NEAR(out(x, y) - out(x - 1, y), 0.01F, 1e-5F) << x << ' ' << y;
+  for (const auto [x, y] : test::cells({1, 0, 120, 90}))
+    ASSERT_NEAR(out(x, y) - out(x - 1, y), 0.01F, 1e-5F) << x << ' ' << y;
 }
 
 TEST(GeneralizeProperties, GlobalWeightsAreLinearInTerrainAndWeights) {
@@ -56,9 +56,8 @@ TEST(GeneralizeProperties, GlobalWeightsAreLinearInTerrainAndWeights) {
 
 double energy(const Grid<float>& band, int y0, int y1) {
   double sum = 0.0;
-  for (int y = y0; y < y1; ++y)
-    for (int x = 16; x < band.width() - 16; ++x)
-      sum += static_cast<double>(band(x, y)) * band(x, y);
+  for (const auto [x, y] : test::cells({16, y0, band.width() - 16, y1}))
+    sum += static_cast<double>(band(x, y)) * band(x, y);
   return sum;
 }
 

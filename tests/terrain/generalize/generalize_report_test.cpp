@@ -98,12 +98,11 @@ TEST(RidgeLines, RunAlongCrestsOnly) {
   });
   const Grid<std::uint8_t> lines = ridge_lines(ridges, report_cell_m);
   int on = 0;
-  for (int y = 5; y < 55; ++y)
-    for (int x = 5; x < 76; ++x) {
-      if (lines(x, y) == 0) continue;
-      ++on;
-      EXPECT_TRUE(x == 20 || x == 60) << x;
-    }
+  for (const auto [x, y] : test::cells({5, 5, 76, 55})) {
+    if (lines(x, y) == 0) continue;
+    ++on;
+    EXPECT_TRUE(x == 20 || x == 60) << x;
+  }
   EXPECT_GT(on, 20);
   const Grid<std::uint8_t> none =
       ridge_lines(grid_of(30, 30, [](int x, int y) { return 2.0 * x - y; }), report_cell_m);
@@ -161,8 +160,7 @@ TEST(Pits, AreOfTheWholeTerrainAndThoseAtTheFootOfSlopesApart) {
   for (int y = 10; y < 15; ++y) after(27, y) -= 4.F;
   after(3, 3) -= 9.F;
   Grid<std::uint8_t> feet(60, 40);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 22; x < 32; ++x) feet(x, y) = 1;
+  for (const auto [x, y] : test::cells({22, 0, 32, 40})) feet(x, y) = 1;
   const Pits pits = find_pits(before, after, feet, report_cell_m);
   EXPECT_NEAR(pits.hollows_m3, (5 * 4.0 + 9.0) * 625.0, 1e-3);
   EXPECT_NEAR(pits.at_feet_m3, 5 * 4.0 * 625.0, 1e-3);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/grids.h"
 #include "tests/terrain/generalize/plan_curvature.h"
 
 // Values of rows with a closed form; results of whole bands: generalize_analytic_test.cpp,
@@ -20,11 +21,8 @@ constexpr double rows_cell_m = 20.0;
 template <class F>
 Grid<float> surface(int size, F&& f) {
   Grid<float> grid(size, size);
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x)
-      grid(x, y) =
-          static_cast<float>(f((x - size / 2) * rows_cell_m, (size / 2 - y) * rows_cell_m));
-  }
+  for (const auto [x, y] : test::cells(size, size))
+    grid(x, y) = static_cast<float>(f((x - size / 2) * rows_cell_m, (size / 2 - y) * rows_cell_m));
   return grid;
 }
 
@@ -89,9 +87,8 @@ TEST(PlanCurvature, BoundedFormStaysFiniteWhereTheOtherDiverges) {
       surface(21, [](double x, double y) { return 1e-3 * (x * x - y * y) + 1e-5 * x; });
   const Grid<float> bounded = bounded_plan_curvature(saddle);
   // Inside the border, where the window is whole.
-  for (int y = 1; y < 20; ++y) {
-    for (int x = 1; x < 20; ++x) ASSERT_LE(std::abs(bounded(x, y)), 2e-3F * 1.01F);
-  }
+  for (const auto [x, y] : test::cells({1, 1, 20, 20}))
+    ASSERT_LE(std::abs(bounded(x, y)), 2e-3F * 1.01F);
 }
 
 TEST(BreakLine, IsTheCurvatureAgainstAFullOneAndAtMostOne) {

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/pyramid.h"
 #include "tests/base/reconstruct.h"
+#include "tests/grids.h"
 #include "tests/terrain/generalize/synthetic_relief.h"
 
 namespace belvedere {
@@ -64,9 +65,7 @@ TEST(Generalize, EqualsEquationTwoForAnySize) {
 TEST(Generalize, TheFirstWeightIsTheCoarsestBand) {
   // Single-cell noise lives in the finest band, the last weight.
   Grid<float> noise(128, 128);
-  for (int y = 0; y < 128; ++y) {
-    for (int x = 0; x < 128; ++x) noise(x, y) = (x + y) % 2 == 0 ? 10.F : -10.F;
-  }
+  for (const auto [x, y] : test::cells(128, 128)) noise(x, y) = (x + y) % 2 == 0 ? 10.F : -10.F;
   const auto largest = [](const Grid<float>& g) {
     return *std::max_element(g.begin() + 64 * 60, g.begin() + 64 * 70);
   };
@@ -105,9 +104,8 @@ TEST(Generalize, ForegroundShareMixesTheWeights) {
 TEST(Generalize, ShareThatChangesAlongTheViewLeavesNoSeam) {
   const Grid<float> terrain = alpine(200, 200);
   Grid<float> share(200, 200);
-  for (int y = 0; y < 200; ++y) {
-    for (int x = 0; x < 200; ++x) share(x, y) = std::clamp((y - 60.F) / 80.F, 0.F, 1.F);
-  }
+  for (const auto [x, y] : test::cells(200, 200))
+    share(x, y) = std::clamp((y - 60.F) / 80.F, 0.F, 1.F);
   const GeneralizeParameters parameters{{1, 1, 1, 1, 1}, {1.5F, 1.F, .5F, .2F, 0.F}, 0.F};
   const Grid<float> out = generalized(terrain, parameters, share);
   const Grid<float> far = equation_two(terrain, parameters.background);
@@ -123,10 +121,8 @@ TEST(Generalize, ShareThatChangesAlongTheViewLeavesNoSeam) {
 
 TEST(Generalize, RampStaysARamp) {
   Grid<float> ramp(90, 70);
-  for (int y = 0; y < 70; ++y) {
-    for (int x = 0; x < 90; ++x)
-      ramp(x, y) = 500.F + 10.F * static_cast<float>(x) + 4.F * static_cast<float>(y);
-  }
+  for (const auto [x, y] : test::cells(90, 70))
+    ramp(x, y) = 500.F + 10.F * static_cast<float>(x) + 4.F * static_cast<float>(y);
   EXPECT_LE(largest_difference(generalized(ramp, {{2, 0, 5, 0, 3}, {2, 0, 5, 0, 3}, 0.F}), ramp),
             1e-2);
 }
@@ -137,11 +133,9 @@ struct LakeCase {
   Grid<unsigned char> keep{160, 160};
   GeneralizeParameters parameters{{2.F, 2.F, 1.5F, .5F, 0.F}, {1, 1, 1, 1, 1}, .9F};
   LakeCase() {
-    for (int y = 60; y < 90; ++y) {
-      for (int x = 60; x < 100; ++x) {
-        terrain(x, y) = 800.F;
-        keep(x, y) = 1;
-      }
+    for (const auto [x, y] : test::cells({60, 60, 100, 90})) {
+      terrain(x, y) = 800.F;
+      keep(x, y) = 1;
     }
   }
 };
@@ -181,13 +175,10 @@ TEST(Generalize, LakesAreNotLeftOnATable) {
   // floor far; the lake stays, so the floor must come up to it, over many cells.
   Grid<float> valley(200, 200);
   Grid<unsigned char> keep(200, 200);
-  for (int y = 0; y < 200; ++y) {
-    for (int x = 0; x < 200; ++x) {
-      valley(x, y) =
-          600.F +
-          800.F * std::clamp((static_cast<float>(std::abs(x - 100)) - 25.F) / 40.F, 0.F, 1.F);
-      keep(x, y) = std::abs(x - 100) < 6 && std::abs(y - 100) < 20;
-    }
+  for (const auto [x, y] : test::cells(200, 200)) {
+    valley(x, y) =
+        600.F + 800.F * std::clamp((static_cast<float>(std::abs(x - 100)) - 25.F) / 40.F, 0.F, 1.F);
+    keep(x, y) = std::abs(x - 100) < 6 && std::abs(y - 100) < 20;
   }
   const GeneralizeParameters parameters{{2.F, 2.F, 1.5F, .5F, .5F, .5F}, {1, 1, 1, 1, 1, 1}, 0.F};
   const double sinking = 600.0 - generalized(valley, parameters)(100, 100);
@@ -204,10 +195,8 @@ TEST(Generalize, CrestsRiseWhereTheyAreHighOnly) {
   // A roof-shaped crest 10 cells across on ground of a given altitude.
   const auto roof = [](float ground) {
     Grid<float> grid(96, 96);
-    for (int y = 0; y < 96; ++y) {
-      for (int x = 0; x < 96; ++x)
-        grid(x, y) = ground + std::max(0.F, 200.F - 20.F * static_cast<float>(std::abs(x - 48)));
-    }
+    for (const auto [x, y] : test::cells(96, 96))
+      grid(x, y) = ground + std::max(0.F, 200.F - 20.F * static_cast<float>(std::abs(x - 48)));
     return grid;
   };
   GeneralizeParameters parameters;

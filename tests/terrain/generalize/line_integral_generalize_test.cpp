@@ -9,6 +9,7 @@
 #include "base/filter.h"
 #include "base/parallel.h"
 #include "terrain/synthetic/synthetic_plan.h"
+#include "tests/grids.h"
 #include "tests/terrain/generalize/synthetic_relief.h"
 
 namespace belvedere {
@@ -24,9 +25,8 @@ Grid<float> run_along_lines(const Grid<float>& altitude_m,
 
 double largest_difference(const Grid<float>& a, const Grid<float>& b, int margin) {
   double largest = 0.0;
-  for (int y = margin; y < a.height() - margin; ++y)
-    for (int x = margin; x < a.width() - margin; ++x)
-      largest = std::max(largest, std::abs(static_cast<double>(a(x, y)) - b(x, y)));
+  for (const auto [x, y] : test::cells({margin, margin, a.width() - margin, a.height() - margin}))
+    largest = std::max(largest, std::abs(static_cast<double>(a(x, y)) - b(x, y)));
   return largest;
 }
 
@@ -41,8 +41,8 @@ double roof(int x, int y) {
 // Mean size of the second difference along columns: detail on the sides.
 double roughness(const Grid<float>& z, int x0, int x1) {
   double sum = 0.0;
-  for (int y = 10; y < z.height() - 10; ++y)
-    for (int x = x0; x < x1; ++x) sum += std::abs(z(x, y - 1) - 2.0 * z(x, y) + z(x, y + 1));
+  for (const auto [x, y] : test::cells({x0, 10, x1, z.height() - 10}))
+    sum += std::abs(z(x, y - 1) - 2.0 * z(x, y) + z(x, y + 1));
   return sum;
 }
 
@@ -122,15 +122,14 @@ TEST(LineIntegral, SaysWhatIsOutOfRange) {
 TEST(LineIntegral, TheMaskKeepsTheBitsOfItsZeros) {
   const Grid<float> ground = grid_of(161, 60, roof);
   Grid<float> mask(161, 60, 1.F);
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 60; ++x) mask(x, y) = x < 40 ? 0.F : static_cast<float>(x - 40) / 20.F;
+  for (const auto [x, y] : test::cells(60, 60))
+    mask(x, y) = x < 40 ? 0.F : static_cast<float>(x - 40) / 20.F;
   const Grid<float> all = run_along_lines(ground);
   const Grid<float> out = generalize_along_slope_lines(ground, mask, cell_m, {}, silent_progress());
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 161; ++x)
-      ASSERT_NEAR(out(x, y), ground(x, y) + mask(x, y) * (all(x, y) - ground(x, y)),
-                  x < 40 || x >= 60 ? 0.F : 1e-3F)
-          << x << ' ' << y;
+  for (const auto [x, y] : test::cells(161, 60))
+    ASSERT_NEAR(out(x, y), ground(x, y) + mask(x, y) * (all(x, y) - ground(x, y)),
+                x < 40 || x >= 60 ? 0.F : 1e-3F)
+        << x << ' ' << y;
   EXPECT_GT(largest_difference(all, ground, 5), 5.0);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "terrain/generalize/generalize.h"
+#include "tests/grids.h"
 #include "tests/terrain/io/raster_files.h"
 
 namespace belvedere {
@@ -47,11 +48,10 @@ TEST(ClassMask, TakesEachClassAtItsShare) {
 TEST_F(MaskFile, ReadsSharesAndGreyValues) {
   const Grid<float> shares = read(mask_of([](int x, int y) { return (x + y) % 5 / 4.0; }));
   const Grid<float> grey = read(mask_of([](int x, int y) { return (x + y) % 6 * 51; }));
-  for (int y = 0; y < 12; ++y)
-    for (int x = 0; x < 20; ++x) {
-      ASSERT_FLOAT_EQ(shares(x, y), static_cast<float>((x + y) % 5) / 4.F);
-      ASSERT_FLOAT_EQ(grey(x, y), static_cast<float>((x + y) % 6) / 5.F);
-    }
+  for (const auto [x, y] : test::cells(20, 12)) {
+    ASSERT_FLOAT_EQ(shares(x, y), static_cast<float>((x + y) % 5) / 4.F);
+    ASSERT_FLOAT_EQ(grey(x, y), static_cast<float>((x + y) % 6) / 5.F);
+  }
 }
 
 TEST_F(MaskFile, WithoutDataIsGeneralized) {
@@ -99,12 +99,11 @@ TEST_F(MaskFile, SlopeAndDrawnMaskProtectTogether) {
   // keeps. The drawn mask keeps the south.
   const int size = 160;
   Grid<float> terrain(size, size);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      const double rise = std::clamp((x - 70.0) / 10.0, 0.0, 1.0);
-      terrain(x, y) = static_cast<float>(1000.0 + 0.2 * std::sin(x * 0.9) * std::sin(y * 0.8) +
-                                         rise * (25.0 * x + 60.0 * std::sin(y * 0.5)));
-    }
+  for (const auto [x, y] : test::cells(size, size)) {
+    const double rise = std::clamp((x - 70.0) / 10.0, 0.0, 1.0);
+    terrain(x, y) = static_cast<float>(1000.0 + 0.2 * std::sin(x * 0.9) * std::sin(y * 0.8) +
+                                       rise * (25.0 * x + 60.0 * std::sin(y * 0.5)));
+  }
   RasterFrame frame = frame_;
   frame.width = frame.height = size;
   const RasterSource source =
@@ -123,9 +122,8 @@ TEST_F(MaskFile, SlopeAndDrawnMaskProtectTogether) {
   // Means of the change, each within one of the four quarters, away from their edges.
   const auto change = [&](const Grid<float>& out, int x0, int y0) {
     double sum = 0.0;
-    for (int y = y0; y < y0 + 40; ++y)
-      for (int x = x0; x < x0 + 40; ++x)
-        sum += std::abs(static_cast<double>(out(x, y)) - terrain(x, y));
+    for (const auto [x, y] : test::cells({x0, y0, x0 + 40, y0 + 40}))
+      sum += std::abs(static_cast<double>(out(x, y)) - terrain(x, y));
     return sum / 1600.0;
   };
   const int west = 10, east = 105, north = 15, south = 105;
@@ -170,8 +168,8 @@ TEST(ApplyMask, KeepsTheBitsOfZeroAndBlendsBetween) {
 
 TEST(SoftenMask, LeavesZeroWhereItWas) {
   Grid<float> hard(60, 40);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 60; ++x) hard(x, y) = x < 30 && !(x == 12 && y == 20) ? 1.F : 0.F;
+  for (const auto [x, y] : test::cells(60, 40))
+    hard(x, y) = x < 30 && !(x == 12 && y == 20) ? 1.F : 0.F;
   const Grid<float> soft = soften_mask(hard);
   for (std::size_t i = 0; i < hard.size(); ++i) {
     if (hard[i] == 0.F) {

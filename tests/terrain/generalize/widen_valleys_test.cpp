@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <string>
 
@@ -14,6 +13,7 @@
 #include "base/parallel.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/shape/hydrology.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/terrain/generalize/synthetic_relief.h"
 
@@ -26,12 +26,10 @@ using test::cell_m;
 // columns 10 and 190; `floor_m` is the half-width of its flat floor.
 Grid<float> make_valley(double floor_m) {
   Grid<float> grid(201, 300);
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x) {
-      const double side = std::abs(x - 100.0);
-      const double up = std::max(0.0, std::min(side, 180.0 - side) * cell_m - floor_m) * 0.5;
-      grid(x, y) = static_cast<float>(1500.0 - 0.6 * y + up);
-    }
+  for (const auto [x, y] : test::cells(grid)) {
+    const double side = std::abs(x - 100.0);
+    const double up = std::max(0.0, std::min(side, 180.0 - side) * cell_m - floor_m) * 0.5;
+    grid(x, y) = static_cast<float>(1500.0 - 0.6 * y + up);
   }
   return grid;
 }
@@ -103,9 +101,8 @@ TEST(WidenValleys, RidgesKeepHeightAndPlaceAndWallsHaveNoSteps) {
   EXPECT_LT(lost, 2.0);
   // Walls of 15 m per cell become steeper, but not cliffs.
   double steepest = 0.0;
-  for (int y = 60; y < 270; ++y)
-    for (int x = 12; x < 100; ++x)
-      steepest = std::max(steepest, static_cast<double>(std::abs(out(x + 1, y) - out(x, y))));
+  for (const auto [x, y] : test::cells({12, 60, 100, 270}))
+    steepest = std::max(steepest, static_cast<double>(std::abs(out(x + 1, y) - out(x, y))));
   EXPECT_LT(steepest, 1.6 * 15.0);
 }
 
@@ -122,11 +119,10 @@ TEST(WidenValleys, FloorsAreLevelAcrossAndDrain) {
 TEST(WidenValleys, LakesStay) {
   Grid<float> valley = make_valley(300.0);
   Grid<std::uint8_t> keep(valley.width(), valley.height());
-  for (int y = 140; y < 160; ++y)
-    for (int x = 95; x < 106; ++x) {
-      keep(x, y) = 1;
-      valley(x, y) = valley(100, 159);
-    }
+  for (const auto [x, y] : test::cells({95, 140, 106, 160})) {
+    keep(x, y) = 1;
+    valley(x, y) = valley(100, 159);
+  }
   const Grid<float> out = widen(valley, valleys_of(480.F), keep);
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (keep[i] != 0) {
@@ -139,8 +135,7 @@ TEST(WidenValleys, LakesStay) {
 TEST(WidenValleys, LinesByLakesStay) {
   const Grid<float> valley = make_valley(0.0);
   Grid<std::uint8_t> keep(valley.width(), valley.height());
-  for (int y = 140; y < 160; ++y)
-    for (int x = 108; x < 116; ++x) keep(x, y) = 1;
+  for (const auto [x, y] : test::cells({108, 140, 116, 160})) keep(x, y) = 1;
   const Grid<glm::vec2> ways =
       widen_valleys(valley, keep, {}, 30.0, valleys_of(480.F), silent_progress()).goes_to;
   EXPECT_GT(ways(112, 80).x, 7.F);
@@ -201,9 +196,7 @@ TEST(WidenValleys, ARealRangeKeepsItsSummitsAndGetsNoPits) {
   RasterSource source;
   source.path = path;
   const Grid<float> whole = read_raster(source).cells;
-  Grid<float> part(400, 400);
-  for (int y = 0; y < 400; ++y)
-    for (int x = 0; x < 400; ++x) part(x, y) = whole(x + 400, y + 120);
+  Grid<float> part = test::grid_of(400, 400, [&](int x, int y) { return whole(x + 400, y + 120); });
   WidenValleysParameters parameters;
   parameters.width_m = 400.F;
   const Grid<float> out = widen(part, parameters);
@@ -224,21 +217,19 @@ TEST(WidenValleys, TheMaskKeepsTheGroundOfItsZerosAndHalvesThatOfAHalf) {
   Grid<float> north(201, 300, 1.F);
   for (int y = 0; y < 120; ++y) std::fill_n(north.row(y), 201, 0.F);
   const WidenedValleys part = masked(north);
-  for (int y = 0; y < 300; ++y)
-    for (int x = 0; x < 201; ++x) {
-      if (y < 120) {
-        ASSERT_EQ(part.altitude_m(x, y), valley(x, y)) << x << ' ' << y;
-        ASSERT_EQ(part.came_from(x, y), glm::vec2(0.F)) << x << ' ' << y;
-        ASSERT_EQ(part.goes_to(x, y), glm::vec2(0.F)) << x << ' ' << y;
-      } else if (y > 200) {
-        ASSERT_NEAR(part.altitude_m(x, y), all.altitude_m(x, y), 0.05F) << x << ' ' << y;
-      }
-      // No step along the valley at the mask's edge: walls rise by 15 m from cell to cell.
-      if (y > 0) {
-        ASSERT_LT(std::abs(part.altitude_m(x, y) - part.altitude_m(x, y - 1)), 10.F)
-            << x << ' ' << y;
-      }
+  for (const auto [x, y] : test::cells(201, 300)) {
+    if (y < 120) {
+      ASSERT_EQ(part.altitude_m(x, y), valley(x, y)) << x << ' ' << y;
+      ASSERT_EQ(part.came_from(x, y), glm::vec2(0.F)) << x << ' ' << y;
+      ASSERT_EQ(part.goes_to(x, y), glm::vec2(0.F)) << x << ' ' << y;
+    } else if (y > 200) {
+      ASSERT_NEAR(part.altitude_m(x, y), all.altitude_m(x, y), 0.05F) << x << ' ' << y;
     }
+    // No step along the valley at the mask's edge: walls rise by 15 m from cell to cell.
+    if (y > 0) {
+      ASSERT_LT(std::abs(part.altitude_m(x, y) - part.altitude_m(x, y - 1)), 10.F) << x << ' ' << y;
+    }
+  }
   EXPECT_GT(largest_offset(all.goes_to), 3.F);
   const WidenedValleys half = masked(Grid<float>(201, 300, 0.5F));
   for (std::size_t i = 0; i < valley.size(); ++i)
@@ -248,12 +239,11 @@ TEST(WidenValleys, TheMaskKeepsTheGroundOfItsZerosAndHalvesThatOfAHalf) {
 // A valley along column 100 that falls to the south between walls of 27°, widened by 480 m.
 Grid<glm::vec2> moves_of_a_valley(double river_wave = 0.0) {
   Grid<float> valley(201, 300);
-  for (int y = 0; y < valley.height(); ++y)
-    for (int x = 0; x < valley.width(); ++x) {
-      const double side = std::abs(x - 100.0 - river_wave * std::sin(0.1 * y));
-      valley(x, y) =
-          static_cast<float>(1500.0 - 0.6 * y + std::min(side, 180.0 - side) * cell_m * 0.5);
-    }
+  for (const auto [x, y] : test::cells(valley)) {
+    const double side = std::abs(x - 100.0 - river_wave * std::sin(0.1 * y));
+    valley(x, y) =
+        static_cast<float>(1500.0 - 0.6 * y + std::min(side, 180.0 - side) * cell_m * 0.5);
+  }
   WidenValleysParameters parameters;
   parameters.width_m = 480.F;
   parameters.min_catchment_km2 = 4.F;
@@ -287,15 +277,14 @@ TEST(MovedGround, AWallLiesAsFarOutAsTheValleyIsWiderAndTheWaterStays) {
 TEST(MovedGround, BesideTheWaterGroundIsDrawnOutAndNotTorn) {
   for (const double wave : {0.0, 4.0}) {
     const Grid<glm::vec2> moves = moves_of_a_valley(wave);
-    for (int y = 120; y < 250; ++y)
-      for (int x = 10; x < 190; ++x) {
-        const glm::dvec2 step_x = drawn_cell(moves, {x + 1.0, y}) - drawn_cell(moves, {x + 0.0, y});
-        const glm::dvec2 step_y =
-            drawn_cell(moves, {x + 0.0, y + 1.0}) - drawn_cell(moves, {x + 0.0, y});
-        ASSERT_GT(step_x.x, 0.3) << wave << " " << x << " " << y;
-        ASSERT_LT(step_x.x, 3.2) << wave << " " << x << " " << y;
-        ASSERT_LT(std::abs(step_y.x), 1.2) << wave << " " << x << " " << y;
-      }
+    for (const auto [x, y] : test::cells({10, 120, 190, 250})) {
+      const glm::dvec2 step_x = drawn_cell(moves, {x + 1.0, y}) - drawn_cell(moves, {x + 0.0, y});
+      const glm::dvec2 step_y =
+          drawn_cell(moves, {x + 0.0, y + 1.0}) - drawn_cell(moves, {x + 0.0, y});
+      ASSERT_GT(step_x.x, 0.3) << wave << " " << x << " " << y;
+      ASSERT_LT(step_x.x, 3.2) << wave << " " << x << " " << y;
+      ASSERT_LT(std::abs(step_y.x), 1.2) << wave << " " << x << " " << y;
+    }
   }
 }
 

@@ -7,16 +7,16 @@
 #include "base/grid.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
 
 Grid<float> wavy_ground(int width, int height) {
   Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      grid(x, y) = static_cast<float>(900.0 + 37.3 * std::sin(0.7 * x) * std::cos(0.45 * y) +
-                                      0.1 * (x * 7 + y));
+  for (const auto [x, y] : test::cells(width, height))
+    grid(x, y) = static_cast<float>(900.0 + 37.3 * std::sin(0.7 * x) * std::cos(0.45 * y) +
+                                    0.1 * (x * 7 + y));
   return grid;
 }
 
@@ -28,16 +28,13 @@ Grid<float> in_strips(const Grid<float>& grid, int rows, int blocks) {
 }
 
 TEST(BlockMeans, AreTheMeansOfWholeBlocks) {
-  Grid<float> grid(9, 6);
-  for (int y = 0; y < 6; ++y)
-    for (int x = 0; x < 9; ++x) grid(x, y) = static_cast<float>(100 * y + x);
+  const Grid<float> grid = test::grid_of(9, 6, [&](int x, int y) { return 100 * y + x; });
   EXPECT_EQ(BlockMeans(9, 6, 3).factor(), 3);
   const Grid<float> means = in_strips(grid, 6, 3);
   ASSERT_EQ(means.width(), 3);
   ASSERT_EQ(means.height(), 2);
-  for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < 3; ++x)
-      EXPECT_EQ(means(x, y), static_cast<float>(100 * (3 * y + 1) + 3 * x + 1));
+  for (const auto [x, y] : test::cells(3, 2))
+    EXPECT_EQ(means(x, y), static_cast<float>(100 * (3 * y + 1) + 3 * x + 1));
 }
 
 TEST(BlockMeans, AreTheSameHoweverTheRowsCome) {
@@ -49,8 +46,7 @@ TEST(BlockMeans, AreTheSameHoweverTheRowsCome) {
 
 TEST(BlockMeans, VoidsTakeNoPart) {
   Grid<float> grid(8, 8, 500.F);
-  for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 4; ++x) grid(x, y) = NAN;
+  for (const auto [x, y] : test::cells(4, 4)) grid(x, y) = NAN;
   grid(4, 0) = NAN;
   grid(0, 4) = 516.F;
   for (int x = 4; x < 8; ++x)
@@ -64,9 +60,7 @@ TEST(BlockMeans, VoidsTakeNoPart) {
 }
 
 TEST(BlockMeansOfAGrid, AreMeansOfWhatABlockHolds) {
-  Grid<float> grid(5, 3);
-  for (int y = 0; y < 3; ++y)
-    for (int x = 0; x < 5; ++x) grid(x, y) = static_cast<float>(10 * y + x);
+  const Grid<float> grid = test::grid_of(5, 3, [&](int x, int y) { return 10 * y + x; });
   const Grid<float> means = block_means(grid, 2);
   ASSERT_EQ(means.width(), 3);
   ASSERT_EQ(means.height(), 2);
@@ -84,10 +78,8 @@ TEST(RasterThinned, TakesCellsHereAndThereAsTheyStand) {
   const auto altitude = [](glm::dvec2 at) {
     return 0.1 * (at.x - 600000.0) + 0.05 * (5200000.0 - at.y);
   };
-  for (int y = 0; y < 600; ++y)
-    for (int x = 0; x < 1000; ++x)
-      plane.cells(x, y) =
-          x < 200 ? NAN : static_cast<float>(altitude(plane.transform.to_crs(x, y)));
+  for (const auto [x, y] : test::cells(1000, 600))
+    plane.cells(x, y) = x < 200 ? NAN : static_cast<float>(altitude(plane.transform.to_crs(x, y)));
   write_raster(folder / "plane.tif", plane);
   RasterSource source;
   source.path = folder / "plane.tif";
@@ -96,16 +88,15 @@ TEST(RasterThinned, TakesCellsHereAndThereAsTheyStand) {
   EXPECT_EQ(thin->cells.width(), 100);
   EXPECT_EQ(thin->cells.height(), 60);
   EXPECT_EQ(thin->transform, (GeoTransform{600000.0, 5200000.0, 100.0, 100.0}));
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 100; ++x) {
-      if (x < 20) {
-        EXPECT_TRUE(std::isnan(thin->cells(x, y)));
-      } else {
-        // Some cell of the ten by ten below: at most 45 m away in each direction.
-        EXPECT_NEAR(thin->cells(x, y), altitude(thin->transform.to_crs(x, y)),
-                    0.1 * 50.0 + 0.05 * 50.0 + 1e-3);
-      }
+  for (const auto [x, y] : test::cells(100, 60)) {
+    if (x < 20) {
+      EXPECT_TRUE(std::isnan(thin->cells(x, y)));
+    } else {
+      // Some cell of the ten by ten below: at most 45 m away in each direction.
+      EXPECT_NEAR(thin->cells(x, y), altitude(thin->transform.to_crs(x, y)),
+                  0.1 * 50.0 + 0.05 * 50.0 + 1e-3);
     }
+  }
   source.lowest_m = 400.0;
   EXPECT_TRUE(std::isnan(read_thinned(source, 100)->cells(30, 0)));
 }

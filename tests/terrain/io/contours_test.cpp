@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
-#include "base/filter.h"
 #include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/synthetic/synthetic_plan.h"
+#include "tests/grids.h"
 #include "tests/terrain/io/raster_files.h"
 
 namespace belvedere {
@@ -20,10 +19,9 @@ class Contours : public RasterFiles {};
 Raster<float> make_cone() {
   Raster<float> cone{
       Grid<float>(201, 201), {600000.0, 5206030.0, 30.0, 30.0}, normalize_crs("EPSG:32611")};
-  for (int y = 0; y < 201; ++y)
-    for (int x = 0; x < 201; ++x)
-      cone.cells(x, y) =
-          static_cast<float>(2500.0 - std::hypot(x - 100.0, y - 100.0) * 30.0 * 0.57735);
+  for (const auto [x, y] : test::cells(201, 201))
+    cone.cells(x, y) =
+        static_cast<float>(2500.0 - std::hypot(x - 100.0, y - 100.0) * 30.0 * 0.57735);
   return cone;
 }
 
@@ -57,8 +55,7 @@ TEST_F(Contours, AltitudesAndCrsAreWritten) {
 TEST_F(Contours, VoidsHaveNone) {
   Raster<float> cone = make_cone();
   const double whole = write_contours(path("a.gpkg"), cone, {100.0, 0.0}).length;
-  for (int y = 0; y < 201; ++y)
-    for (int x = 0; x < 100; ++x) cone.cells(x, y) = NAN;
+  for (const auto [x, y] : test::cells(100, 201)) cone.cells(x, y) = NAN;
   EXPECT_NEAR(write_contours(path("a.gpkg"), cone, {100.0, 0.0}).length, 0.5 * whole,
               0.02 * whole);  // written over
 }
@@ -66,9 +63,8 @@ TEST_F(Contours, VoidsHaveNone) {
 TEST_F(Contours, GeneralizedTerrainHasShorterLines) {
   Raster<float> raster{
       Grid<float>(150, 150), {600000.0, 5206030.0, 30.0, 30.0}, normalize_crs("EPSG:32611")};
-  for (int y = 0; y < 150; ++y)
-    for (int x = 0; x < 150; ++x)
-      raster.cells(x, y) = 900.F + 1400.F * synthetic::ridged_noise(2, x / 60.0, y / 60.0, 6);
+  for (const auto [x, y] : test::cells(150, 150))
+    raster.cells(x, y) = 900.F + 1400.F * synthetic::ridged_noise(2, x / 60.0, y / 60.0, 6);
   const double before = write_contours(path("before.gpkg"), raster, {50.0, 0.0}).length;
   raster.cells = generalize_along_slope_lines(raster.cells, {}, 30.0, {}, silent_progress());
   EXPECT_LT(write_contours(path("after.gpkg"), raster, {50.0, 0.0}).length, 0.8 * before);

@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "base/pyramid.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/terrain/io/raster_files.h"
 
 namespace belvedere {
@@ -21,10 +22,7 @@ float rough_value(int x, int y) {
 }
 
 Grid<float> rough_grid(int width, int height) {
-  Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) grid(x, y) = rough_value(x, y);
-  return grid;
+  return test::grid_of(width, height, [&](int x, int y) { return rough_value(x, y); });
 }
 
 Grid<float> reduce_in_strips(const Grid<float>& grid, int rows) {
@@ -53,20 +51,18 @@ TEST(DemRowReducer, EqualsReduceHoweverTheRowsCome) {
 
 TEST(DemRowReducer, VoidsTakeNoPart) {
   Grid<float> level(20, 20, 500.F);
-  for (int y = 6; y < 14; ++y)
-    for (int x = 6; x < 14; ++x) level(x, y) = NAN;
+  for (const auto [x, y] : test::cells({6, 6, 14, 14})) level(x, y) = NAN;
   const Grid<float> half = reduce_in_strips(level, 5);
-  for (int y = 0; y < 10; ++y)
-    for (int x = 0; x < 10; ++x) {
-      const bool deep =
-          x >= 4 && x <= 5 && y >= 4 && y <= 5;  // no known cell under the kernel, or few
-      if (deep)
-        EXPECT_TRUE(std::isnan(half(x, y))) << x << ' ' << y;
-      else if (!std::isnan(half(x, y)))
-        EXPECT_NEAR(half(x, y), 500.F, 1e-3F) << x << ' ' << y;
-      else
-        EXPECT_TRUE(x >= 3 && x <= 6 && y >= 3 && y <= 6) << x << ' ' << y;
-    }
+  for (const auto [x, y] : test::cells(10, 10)) {
+    const bool deep =
+        x >= 4 && x <= 5 && y >= 4 && y <= 5;  // no known cell under the kernel, or few
+    if (deep)
+      EXPECT_TRUE(std::isnan(half(x, y))) << x << ' ' << y;
+    else if (!std::isnan(half(x, y)))
+      EXPECT_NEAR(half(x, y), 500.F, 1e-3F) << x << ' ' << y;
+    else
+      EXPECT_TRUE(x >= 3 && x <= 6 && y >= 3 && y <= 6) << x << ' ' << y;
+  }
 }
 
 TEST(CoarsestLevel, LeavesThreeQuartersToWindows) {
@@ -125,13 +121,12 @@ TEST_F(DemLevelsTest, CellsLieWhereTheirGroundIs) {
   const Dem whole = levels.whole();
   for (int level = 0; level <= 2; ++level) {
     const Dem window = levels.window(level, {4, 6, 16, 15}, whole);
-    for (int y = 0; y < window.height(); ++y)
-      for (int x = 0; x < window.width(); ++x) {
-        const glm::dvec2 position = window.transform.to_crs(x, y);
-        const double expected = 1000.0 + 4.0 * (position.x - 600000.0) / 30.0 -
-                                2.0 * (5200000.0 + 70.0 * 30.0 - position.y) / 30.0;
-        EXPECT_NEAR(window.altitude_m(x, y), expected, 2e-3) << "level " << level;
-      }
+    for (const auto [x, y] : test::cells(window)) {
+      const glm::dvec2 position = window.transform.to_crs(x, y);
+      const double expected = 1000.0 + 4.0 * (position.x - 600000.0) / 30.0 -
+                              2.0 * (5200000.0 + 70.0 * 30.0 - position.y) / 30.0;
+      EXPECT_NEAR(window.altitude_m(x, y), expected, 2e-3) << "level " << level;
+    }
   }
 }
 
@@ -152,11 +147,10 @@ TEST_F(DemLevelsTest, VoidsOfAWindowAreFilledAsTheWholeIs) {
   const Dem whole = levels.whole();
   // Entirely within the void, without a known border.
   const Dem inside = levels.window(0, {50, 60, 60, 70}, whole);
-  for (int y = 0; y < 10; ++y)
-    for (int x = 0; x < 10; ++x) {
-      EXPECT_EQ(inside.filled(x, y), 1);
-      EXPECT_NEAR(inside.altitude_m(x, y), 1000.0 + 5.0 * (50 + x), 30.0);
-    }
+  for (const auto [x, y] : test::cells(10, 10)) {
+    EXPECT_EQ(inside.filled(x, y), 1);
+    EXPECT_NEAR(inside.altitude_m(x, y), 1000.0 + 5.0 * (50 + x), 30.0);
+  }
   EXPECT_EQ(levels.window(0, {0, 0, 120, 120}, whole).filled(39, 60), 0);
   parameters.max_void_share = 0.01;
   EXPECT_THROW(DemLevels(parameters, frame, 2, 0.0, silent_progress()), Error);
@@ -170,14 +164,13 @@ TEST_F(DemLevelsTest, RasterWindowsHaveTheBitsOfTheWholeAlsoReprojected) {
   for (const PixelRect& rect : {PixelRect{0, 0, frame.width, frame.height},
                                 PixelRect{13, 29, 70, 64}, PixelRect{50, 40, 51, 41}}) {
     const Grid<float> part = windows.read(rect);
-    for (int y = 0; y < part.height(); ++y)
-      for (int x = 0; x < part.width(); ++x) {
-        const float expected = whole(rect.x0 + x, rect.y0 + y);
-        if (std::isnan(expected))
-          EXPECT_TRUE(std::isnan(part(x, y)));
-        else
-          EXPECT_EQ(part(x, y), expected) << x << ' ' << y;
-      }
+    for (const auto [x, y] : test::cells(part)) {
+      const float expected = whole(rect.x0 + x, rect.y0 + y);
+      if (std::isnan(expected))
+        EXPECT_TRUE(std::isnan(part(x, y)));
+      else
+        EXPECT_EQ(part(x, y), expected) << x << ' ' << y;
+    }
   }
   EXPECT_THROW(windows.read({0, 0, frame.width + 1, 1}), Error);
 }

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "terrain/io/dem_levels.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/terrain/io/raster_files.h"
 
@@ -21,16 +22,14 @@ class DemFiles : public RasterFiles {};
 Raster<float> make_slope(int width, int height) {
   Raster<float> raster{
       Grid<float>(width, height), {500000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      raster.cells(x, y) = 1000.F + 5.F * static_cast<float>(x) - 3.F * static_cast<float>(y);
+  for (const auto [x, y] : test::cells(width, height))
+    raster.cells(x, y) = 1000.F + 5.F * static_cast<float>(x) - 3.F * static_cast<float>(y);
   return raster;
 }
 
 void cut_disc(Grid<float>& cells, double cx, double cy, double radius) {
-  for (int y = 0; y < cells.height(); ++y)
-    for (int x = 0; x < cells.width(); ++x)
-      if (std::hypot(x - cx, y - cy) < radius) cells(x, y) = NAN;
+  for (const auto [x, y] : test::cells(cells))
+    if (std::hypot(x - cx, y - cy) < radius) cells(x, y) = NAN;
 }
 
 TEST(Dem, KeepsWhatIsKnownToTheBit) {
@@ -65,24 +64,21 @@ TEST(Dem, AHoleInAPlaneIsFilledByThePlane) {
 
 TEST(Dem, FillIsContinuousAtItsRim) {
   Raster<float> raster = make_slope(200, 200);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x)
-      raster.cells(x, y) += 200.F * static_cast<float>(std::sin(0.05 * x) * std::cos(0.07 * y));
+  for (const auto [x, y] : test::cells(200, 200))
+    raster.cells(x, y) += 200.F * static_cast<float>(std::sin(0.05 * x) * std::cos(0.07 * y));
   double steepest = 0.0;
-  for (int y = 0; y < 200; ++y)
-    for (int x = 1; x < 200; ++x)
-      steepest = std::max(
-          steepest, std::abs(static_cast<double>(raster.cells(x, y)) - raster.cells(x - 1, y)));
+  for (const auto [x, y] : test::cells({1, 0, 200, 200}))
+    steepest = std::max(steepest,
+                        std::abs(static_cast<double>(raster.cells(x, y)) - raster.cells(x - 1, y)));
   cut_disc(raster.cells, 90, 100, 45);
   for (int y = 0; y < 200; ++y)  // and a slanted rim, as reprojected tiles have
     for (int x = 0; x < 4 + y / 20; ++x) raster.cells(x, y) = NAN;
   const Dem dem = make_dem(raster);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 1; x < 200; ++x) {
-      ASSERT_TRUE(std::isfinite(dem.altitude_m(x, y)));
-      ASSERT_LT(std::abs(dem.altitude_m(x, y) - dem.altitude_m(x - 1, y)), 2.5 * steepest)
-          << x << ' ' << y;
-    }
+  for (const auto [x, y] : test::cells({1, 0, 200, 200})) {
+    ASSERT_TRUE(std::isfinite(dem.altitude_m(x, y)));
+    ASSERT_LT(std::abs(dem.altitude_m(x, y) - dem.altitude_m(x - 1, y)), 2.5 * steepest)
+        << x << ' ' << y;
+  }
 }
 
 TEST(Dem, FillStaysWithinItsRim) {
@@ -402,11 +398,10 @@ TEST_F(HeightDoubts, ZeroOutsideAnOutlineIsVoid) {
   parameters.max_void_share = 0.9;
   KeptNotes notes;
   const Dem dem = read_dem(parameters, notes);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) {
-      ASSERT_EQ(dem.filled(x, y) != 0, !inside(x, y)) << x << ' ' << y;
-      ASSERT_GT(dem.altitude_m(x, y), 900.F) << x << ' ' << y;
-    }
+  for (const auto [x, y] : test::cells(40, 40)) {
+    ASSERT_EQ(dem.filled(x, y) != 0, !inside(x, y)) << x << ' ' << y;
+    ASSERT_GT(dem.altitude_m(x, y), 900.F) << x << ' ' << y;
+  }
   EXPECT_THAT(notes.text, AllOf(HasSubstr("cells of 0 are taken as void"), HasSubstr("`nodata`")));
   // Said: they are heights.
   parameters.sources[0].nodata = -1.0;

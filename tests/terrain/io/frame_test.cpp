@@ -6,7 +6,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "terrain/io/raster_io.h"
 #include "tests/terrain/io/raster_files.h"

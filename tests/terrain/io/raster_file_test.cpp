@@ -18,6 +18,7 @@
 #include "terrain/io/points.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/terrain/io/raster_files.h"
 
 namespace belvedere {
@@ -54,16 +55,15 @@ class EncodedRaster : public RasterFiles {
         .bands = {{"r"}, {"g"}, {"b"}},
         .is_colour = true};
     std::vector<Grid<std::uint8_t>> bands(3, Grid<std::uint8_t>(width, height, 0));
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        if (x == 7 && y == 5) continue;
-        const double z = static_cast<double>(slope(x, y));
-        const auto steps = static_cast<std::uint32_t>(
-            std::lround(encoding == "mapbox" ? (z + 10000.0) * 10.0 : (z + 32768.0) * 256.0));
-        bands[0](x, y) = static_cast<std::uint8_t>(steps >> 16);
-        bands[1](x, y) = static_cast<std::uint8_t>(steps >> 8 & 255U);
-        bands[2](x, y) = static_cast<std::uint8_t>(steps & 255U);
-      }
+    for (const auto [x, y] : test::cells(width, height)) {
+      if (x == 7 && y == 5) continue;
+      const double z = static_cast<double>(slope(x, y));
+      const auto steps = static_cast<std::uint32_t>(
+          std::lround(encoding == "mapbox" ? (z + 10000.0) * 10.0 : (z + 32768.0) * 256.0));
+      bands[0](x, y) = static_cast<std::uint8_t>(steps >> 16);
+      bands[1](x, y) = static_cast<std::uint8_t>(steps >> 8 & 255U);
+      bands[2](x, y) = static_cast<std::uint8_t>(steps & 255U);
+    }
     ByteRasterRows file(path("tiles.tif"), layout);
     file.write(0, bands);
     file.commit();
@@ -77,9 +77,8 @@ class EncodedRaster : public RasterFiles {
 TEST_F(EncodedRaster, HeightsComeBackInMetresBlackIsVoid) {
   for (const char* encoding : {"terrarium", "mapbox"}) {
     const Dem dem = read_dem(dem_of(write(encoding)), silent_progress());
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        ASSERT_NEAR(dem.altitude_m(x, y), slope(x, y), 0.06F) << encoding << ' ' << x << ' ' << y;
+    for (const auto [x, y] : test::cells(width, height))
+      ASSERT_NEAR(dem.altitude_m(x, y), slope(x, y), 0.06F) << encoding << ' ' << x << ' ' << y;
     EXPECT_EQ(dem.filled(7, 5), 1);
     EXPECT_EQ(dem.filled(8, 5), 0);
   }
@@ -91,14 +90,12 @@ TEST_F(EncodedRaster, HeightsAreResampledNotColours) {
   const RasterSource source = write("terrarium");
   RasterFrame frame{{500315, 5199685, 30, 30}, 40, 20, normalize_crs("EPSG:32632")};
   const Raster<float> aside = warp_rasters({source}, frame, silent_progress());
-  for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 40; ++x)
-      ASSERT_NEAR(aside.cells(x, y), slope(x + 10.5, y + 10.5), 0.02F) << x << ' ' << y;
+  for (const auto [x, y] : test::cells(40, 20))
+    ASSERT_NEAR(aside.cells(x, y), slope(x + 10.5, y + 10.5), 0.02F) << x << ' ' << y;
   const std::optional<Raster<float>> thin = read_thinned(source, 20);
   ASSERT_TRUE(thin);
-  for (int y = 1; y < thin->cells.height(); ++y)
-    for (int x = 3; x < 20; ++x)
-      ASSERT_NEAR(thin->cells(x, y), slope(3.0 * x + 1.0, 3.0 * y + 1.0), 12.F) << x << ' ' << y;
+  for (const auto [x, y] : test::cells({3, 1, 20, thin->cells.height()}))
+    ASSERT_NEAR(thin->cells(x, y), slope(3.0 * x + 1.0, 3.0 * y + 1.0), 12.F) << x << ' ' << y;
 }
 
 TEST_F(EncodedRaster, GroundLargerThanMemoryIsDecodedToo) {
@@ -315,9 +312,8 @@ TEST_F(InputParts, ReadersLeaveTheFolderAsItWas) {
              "<SourceFilename relativeToVRT=\"1\">d.tif</SourceFilename></SimpleSource>"
              "</VRTRasterBand></VRTDataset>");
   std::string grid;
-  for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 4; ++x)
-      grid += std::to_string(x) + " " + std::to_string(9 - y) + " " + std::to_string(x * y) + "\n";
+  for (const auto [x, y] : test::cells(4, 4))
+    grid += std::to_string(x) + " " + std::to_string(9 - y) + " " + std::to_string(x * y) + "\n";
   write_text("d.xyz", grid);
   std::vector<std::string> rasters = {"d.tif", "d.asc", "v.vrt", "d.xyz"};
   const std::pair<const char*, const char*> others[] = {
@@ -367,8 +363,7 @@ std::vector<Grid<std::uint8_t>> rows(int bands, int y0, int count) {
   std::vector<Grid<std::uint8_t>> out;
   for (int b = 0; b < bands; ++b) {
     Grid<std::uint8_t>& grid = out.emplace_back(300, count);
-    for (int y = 0; y < count; ++y)
-      for (int x = 0; x < 300; ++x) grid(x, y) = value(b, x, y0 + y);
+    for (const auto [x, y] : test::cells(300, count)) grid(x, y) = value(b, x, y0 + y);
   }
   return out;
 }
@@ -385,8 +380,7 @@ TEST(ByteRasterRows, RowsComeBackAsTheyWere) {
     source.band = b + 1;
     const Raster<std::int32_t> back = read_codes(source);
     EXPECT_EQ(back.transform, (GeoTransform{1000.0, 2000.0, 5.0, 4.0}));
-    for (int y = 0; y < 550; ++y)
-      for (int x = 0; x < 300; ++x) ASSERT_EQ(back.cells(x, y), value(b, x, y));
+    for (const auto [x, y] : test::cells(300, 550)) ASSERT_EQ(back.cells(x, y), value(b, x, y));
   }
 }
 

@@ -14,6 +14,7 @@
 #include "terrain/io/raster.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 
@@ -34,11 +35,10 @@ class RasterFiles : public testing::Test {
   static Raster<float> make_hills(int width, int height, GeoTransform transform,
                                   const std::string& crs) {
     Raster<float> raster{Grid<float>(width, height), transform, normalize_crs(crs)};
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const glm::dvec2 p = transform.to_crs(x, y);
-        raster.cells(x, y) = hills(p.x, p.y);
-      }
+    for (const auto [x, y] : test::cells(width, height)) {
+      const glm::dvec2 p = transform.to_crs(x, y);
+      raster.cells(x, y) = hills(p.x, p.y);
+    }
     return raster;
   }
   void TearDown() override { unsetenv("BELVEDERE_MEMORY_MIB"); }

@@ -3,14 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <thread>
 
 #include "base/parallel.h"
 #include "terrain/io/raster_file.h"
+#include "tests/grids.h"
 #include "tests/terrain/io/raster_files.h"
 
 namespace belvedere {
@@ -211,28 +209,26 @@ TEST_F(RasterIo, ReprojectionFindsTheSameGround) {
   const PointTransform to_32("EPSG:32633", "EPSG:32632");
   const PointTransform to_33("EPSG:32632", "EPSG:32633");
   Raster<float> there{Grid<float>(300, 260), transform, normalize_crs("EPSG:32633")};
-  for (int y = 0; y < 260; ++y)
-    for (int x = 0; x < 300; ++x) {
-      const glm::dvec2 p = to_32.apply(transform.to_crs(x, y));
-      there.cells(x, y) = hills(p.x, p.y);
-    }
+  for (const auto [x, y] : test::cells(300, 260)) {
+    const glm::dvec2 p = to_32.apply(transform.to_crs(x, y));
+    there.cells(x, y) = hills(p.x, p.y);
+  }
   write_raster(path("b.tif"), there);
   const RasterSource source = source_of(path("b.tif"));
   const RasterFrame frame = choose_frame({source}, "EPSG:32632", 30.0, {});
   const Raster<float> here = warp_rasters({source}, frame, silent_progress());
   double worst = 0.0;
   std::size_t known = 0;
-  for (int y = 0; y < frame.height; ++y)
-    for (int x = 0; x < frame.width; ++x) {
-      if (std::isnan(here.cells(x, y))) continue;
-      const glm::dvec2 p = frame.transform.to_crs(x, y);
-      // The outermost cell ring is interpolated from one side only.
-      const glm::dvec2 there_p = to_33.apply(p);
-      const glm::dvec2 cell = transform.to_cell(there_p.x, there_p.y);
-      if (cell.x < 2 || cell.y < 2 || cell.x > 297 || cell.y > 257) continue;
-      ++known;
-      worst = std::max(worst, std::abs(static_cast<double>(here.cells(x, y)) - hills(p.x, p.y)));
-    }
+  for (const auto [x, y] : test::cells(frame.width, frame.height)) {
+    if (std::isnan(here.cells(x, y))) continue;
+    const glm::dvec2 p = frame.transform.to_crs(x, y);
+    // The outermost cell ring is interpolated from one side only.
+    const glm::dvec2 there_p = to_33.apply(p);
+    const glm::dvec2 cell = transform.to_cell(there_p.x, there_p.y);
+    if (cell.x < 2 || cell.y < 2 || cell.x > 297 || cell.y > 257) continue;
+    ++known;
+    worst = std::max(worst, std::abs(static_cast<double>(here.cells(x, y)) - hills(p.x, p.y)));
+  }
   EXPECT_GT(known, 70000U);
   EXPECT_LT(worst, 0.35);  // cubic error of the hills at 30 m; half a cell's shift would be 10 m
 }
@@ -251,15 +247,15 @@ TEST_F(RasterIo, SouthUpAndRotatedRastersComeUpright) {
   };
   const Raster<float> south_up = read_raster(vrt("s.vrt", "500000,30,0,5199100,0,30"));
   EXPECT_EQ(south_up.transform, raster.transform);
-  for (int y = 0; y < 30; ++y)
-    for (int x = 0; x < 40; ++x) ASSERT_EQ(south_up.cells(x, y), raster.cells(x, 29 - y));
+  for (const auto [x, y] : test::cells(40, 30))
+    ASSERT_EQ(south_up.cells(x, y), raster.cells(x, 29 - y));
   // A quarter turn: columns run south, rows run west.
   const Raster<float> turned = read_raster(vrt("r.vrt", "500900,0,-30,5200000,-30,0"));
   ASSERT_EQ(turned.cells.width(), 30);
   ASSERT_EQ(turned.cells.height(), 40);
   EXPECT_EQ(turned.transform, raster.transform);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 30; ++x) ASSERT_EQ(turned.cells(x, y), raster.cells(y, 29 - x));
+  for (const auto [x, y] : test::cells(30, 40))
+    ASSERT_EQ(turned.cells(x, y), raster.cells(y, 29 - x));
 }
 
 TEST_F(RasterIo, TilesJoinWithoutSeamAndTheFirstWins) {
@@ -267,8 +263,8 @@ TEST_F(RasterIo, TilesJoinWithoutSeamAndTheFirstWins) {
   const auto part = [&](int x0, int x1, float shift) {
     Raster<float> raster{
         Grid<float>(x1 - x0, 60), {500000.0 + 30.0 * x0, 5200000.0, 30.0, 30.0}, whole.crs};
-    for (int y = 0; y < 60; ++y)
-      for (int x = x0; x < x1; ++x) raster.cells(x - x0, y) = whole.cells(x, y) + shift;
+    for (const auto [x, y] : test::cells({x0, 0, x1, 60}))
+      raster.cells(x - x0, y) = whole.cells(x, y) + shift;
     return raster;
   };
   write_raster(path("whole.tif"), whole);
@@ -344,9 +340,8 @@ TEST_F(RasterIo, TilesOfDifferentCrsMeet) {
     const GeoTransform transform{origin.x, origin.y, 30.0, 30.0};
     const PointTransform to_32(crs, "EPSG:32632");
     Raster<float> raster{Grid<float>(60, 60), transform, normalize_crs(crs)};
-    for (int y = 0; y < 60; ++y)
-      for (int x = 0; x < 60; ++x)
-        raster.cells(x, y) = static_cast<float>(to_32.apply(transform.to_crs(x, y)).y - 5.2e6);
+    for (const auto [x, y] : test::cells(60, 60))
+      raster.cells(x, y) = static_cast<float>(to_32.apply(transform.to_crs(x, y)).y - 5.2e6);
     write_raster(path(name), raster);
     return source_of(path(name));
   };
@@ -359,13 +354,12 @@ TEST_F(RasterIo, TilesOfDifferentCrsMeet) {
   EXPECT_EQ(describe_crs(frame.crs), "EPSG:32632");
   const Raster<float> both = warp_rasters({a, b}, frame, silent_progress());
   std::size_t known = 0;
-  for (int y = 0; y < frame.height; ++y)
-    for (int x = 0; x < frame.width; ++x) {
-      if (std::isnan(both.cells(x, y))) continue;
-      ++known;
-      // Border cells of b are constant over half a cell.
-      ASSERT_NEAR(both.cells(x, y), frame.transform.to_crs(x, y).y - 5.2e6, 16.0);
-    }
+  for (const auto [x, y] : test::cells(frame.width, frame.height)) {
+    if (std::isnan(both.cells(x, y))) continue;
+    ++known;
+    // Border cells of b are constant over half a cell.
+    ASSERT_NEAR(both.cells(x, y), frame.transform.to_crs(x, y).y - 5.2e6, 16.0);
+  }
   EXPECT_GT(known, 6000U);
 }
 
@@ -376,8 +370,8 @@ TEST_F(RasterIo, FinerSourcesAreAveraged) {
   const RasterSource source = source_of(path("c.asc"), "EPSG:32632");
   const RasterFrame frame = choose_frame({source}, "", 30.0, {});
   const Raster<float> coarse = warp_rasters({source}, frame, silent_progress());
-  for (int y = 2; y < frame.height - 2; ++y)
-    for (int x = 2; x < frame.width - 2; ++x) ASSERT_NEAR(coarse.cells(x, y), 1000.0, 1.0);
+  for (const auto [x, y] : test::cells({2, 2, frame.width - 2, frame.height - 2}))
+    ASSERT_NEAR(coarse.cells(x, y), 1000.0, 1.0);
 }
 
 TEST_F(RasterIo, LakesStayFlatBesideSlopes) {
@@ -537,10 +531,9 @@ TEST_F(RasterOfSeveral, AFileOfOneHasNoNames) {
 
 TEST_F(RasterOfSeveral, TextOfXYZIsAGrid) {
   std::string text = "x y z\n";
-  for (int y = 0; y < 5; ++y)
-    for (int x = 0; x < 6; ++x)
-      text += std::to_string(500015 + 30 * x) + " " + std::to_string(5200135 - 30 * y) + " " +
-              std::to_string(700.25 + x + 10 * y) + "\n";
+  for (const auto [x, y] : test::cells(6, 5))
+    text += std::to_string(500015 + 30 * x) + " " + std::to_string(5200135 - 30 * y) + " " +
+            std::to_string(700.25 + x + 10 * y) + "\n";
   for (const char* name : {"dem.xyz", "dem.txt", "dem.csv"}) {
     write_text(name, text);
     const Raster<float> raster = read_raster(source(name));

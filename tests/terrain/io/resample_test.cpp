@@ -8,15 +8,13 @@
 #include <limits>
 
 #include "terrain/io/crs.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
 
 Grid<float> make(int width, int height, const std::function<double(int, int)>& value) {
-  Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) grid(x, y) = static_cast<float>(value(x, y));
-  return grid;
+  return test::grid_of(width, height, [&](int x, int y) { return value(x, y); });
 }
 
 double bumps(double x, double y) { return 100.0 * std::sin(1.3 * x) * std::cos(0.9 * y); }
@@ -25,9 +23,8 @@ TEST(Resampler, CopiesCellsToTheBitWhereTheyCoincide) {
   const Grid<float> cells = make(12, 9, bumps);
   for (const double scale : {0.3, 1.0, 1.0005}) {
     const Resampler resampler({scale, scale});
-    for (int y = 0; y < 9; ++y)
-      for (int x = 0; x < 12; ++x)
-        ASSERT_EQ(resampler.sample(cells, {x, y}), cells(x, y)) << scale << ' ' << x << ' ' << y;
+    for (const auto [x, y] : test::cells(12, 9))
+      ASSERT_EQ(resampler.sample(cells, {x, y}), cells(x, y)) << scale << ' ' << x << ' ' << y;
   }
 }
 
@@ -68,8 +65,7 @@ TEST(Resampler, AveragesWhatIsFinerThanItsSamples) {
 
 TEST(Resampler, BesideVoidsTakesTheMeanOfWhatIsKnown) {
   Grid<float> cells = make(12, 12, [](int, int) { return 7.0; });
-  for (int y = 0; y < 12; ++y)
-    for (int x = 6; x < 12; ++x) cells(x, y) = NAN;
+  for (const auto [x, y] : test::cells({6, 0, 12, 12})) cells(x, y) = NAN;
   const Resampler resampler({1.0, 1.0});
   EXPECT_EQ(resampler.sample(cells, {5.0, 5.0}), 7.F) << "on a centre";
   EXPECT_EQ(resampler.sample(cells, {5.4, 5.0}), 7.F) << "more than half of the tent is known";
@@ -95,9 +91,8 @@ TEST(Resampler, LooksNoFurtherThanItsReach) {
     const Grid<float> cells = make(40, 40, bumps);
     for (const double x : {20.0, 20.3, 20.99}) {
       Grid<float> other = cells;
-      for (int v = 0; v < 40; ++v)
-        for (int u = 0; u < 40; ++u)
-          if (std::abs(u - x) > reach.x || std::abs(v - 20.4) > reach.y) other(u, v) = NAN;
+      for (const auto [u, v] : test::cells(40, 40))
+        if (std::abs(u - x) > reach.x || std::abs(v - 20.4) > reach.y) other(u, v) = NAN;
       EXPECT_EQ(resampler.sample(other, {x, 20.4}), resampler.sample(cells, {x, 20.4}))
           << scale << ' ' << x;
     }

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "terrain/deform/deform.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -14,9 +15,8 @@ const GeoTransform frame{680000.0, 5260000.0, 30.0, 30.0};
 
 Grid<float> rough(int width, int height) {
   Grid<float> z(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      z(x, y) = 1000.F + 10.F * static_cast<float>((x * 7 + y * 13) % 11);
+  for (const auto [x, y] : test::cells(width, height))
+    z(x, y) = 1000.F + 10.F * static_cast<float>((x * 7 + y * 13) % 11);
   return z;
 }
 
@@ -32,21 +32,18 @@ TEST(SurfaceRaster, AShiftByWholeCellsMovesTheCells) {
   const Grid<float> z = rough(50, 40);
   const Grid<float> moved = raster_of_moved(
       z, frame, [](glm::dvec3 p) { return glm::dvec3(p.x + 90.0, p.y + 60.0, p.z); });
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 50; ++x) {
-      if (x < 3 || y >= 38) {
-        EXPECT_TRUE(std::isnan(moved(x, y)));
-      } else {
-        EXPECT_EQ(moved(x, y), z(x - 3, y + 2)) << x << ' ' << y;
-      }
+  for (const auto [x, y] : test::cells(50, 40)) {
+    if (x < 3 || y >= 38) {
+      EXPECT_TRUE(std::isnan(moved(x, y)));
+    } else {
+      EXPECT_EQ(moved(x, y), z(x - 3, y + 2)) << x << ' ' << y;
     }
+  }
 }
 
 TEST(SurfaceRaster, ATurnedPlaneIsThePlaneTurned) {
   // z rises to the east; rotated clockwise by 50° in the core it rises to azimuth 140°.
-  Grid<float> z(101, 101);
-  for (int y = 0; y < 101; ++y)
-    for (int x = 0; x < 101; ++x) z(x, y) = static_cast<float>(2.0 * x);
+  const Grid<float> z = test::grid_of(101, 101, [&](int x, int) { return 2.0 * x; });
   DeformParameters p;
   const glm::dvec2 centre = frame.to_crs(50, 50);
   p.handles = {{.centre = centre, .rotate_deg = 50.0, .radius_m = 1400.0, .core_m = 700.0}};
@@ -66,9 +63,7 @@ TEST(SurfaceRaster, ATurnedPlaneIsThePlaneTurned) {
 }
 
 TEST(SurfaceRaster, OverhangsKeepTheHighestAndVoidsStayVoids) {
-  Grid<float> z(60, 20);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 60; ++x) z(x, y) = x < 30 ? 500.F : 100.F;
+  Grid<float> z = test::grid_of(60, 20, [&](int x, int) { return x < 30 ? 500.F : 100.F; });
   z(45, 10) = std::nanf("");
   // The western half overlaps the eastern one by 10 cells.
   const auto push = [](glm::dvec3 p) {

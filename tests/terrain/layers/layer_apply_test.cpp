@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "terrain/layers/layer_coverage.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -21,10 +22,9 @@ Dem hills() {
   dem.altitude_m = Grid<float>(1100, 700);
   dem.filled = Grid<std::uint8_t>(1100, 700, 0);
   dem.transform = {500'000.0, 5'200'000.0, 20.0, 20.0};
-  for (int y = 0; y < 700; ++y)
-    for (int x = 0; x < 1100; ++x)
-      dem.altitude_m(x, y) =
-          static_cast<float>(1500.0 + 700.0 * std::sin(x / 80.0) * std::cos(y / 60.0) + 0.5 * x);
+  for (const auto [x, y] : test::cells(1100, 700))
+    dem.altitude_m(x, y) =
+        static_cast<float>(1500.0 + 700.0 * std::sin(x / 80.0) * std::cos(y / 60.0) + 0.5 * x);
   return dem;
 }
 
@@ -112,11 +112,10 @@ TEST(LayerApply, TilesAndThreadsLeaveNoTrace) {
         [&](const LayerStrip& strip) {
           std::copy(strip.classes.begin(), strip.classes.end(), classes.row(strip.y0));
           for (std::size_t k = 0; k < coverage.size(); ++k)
-            for (int y = 0; y < strip.coverage[k].height(); ++y)
-              for (int x = 0; x < 1100; ++x)
-                ASSERT_EQ(strip.coverage[k](x, y),
-                          static_cast<int>(255.F * coverage[k](x, strip.y0 + y) + 0.5F))
-                    << x << ' ' << y;
+            for (const auto [x, y] : test::cells(1100, strip.coverage[k].height()))
+              ASSERT_EQ(strip.coverage[k](x, y),
+                        static_cast<int>(255.F * coverage[k](x, strip.y0 + y) + 0.5F))
+                  << x << ' ' << y;
         },
         silent_progress());
     return classes;

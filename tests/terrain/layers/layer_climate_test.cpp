@@ -18,6 +18,7 @@
 #include "terrain/layers/layer_coverage.h"
 #include "terrain/layers/layers_file.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -30,10 +31,9 @@ Dem tent(const std::string& crs = "EPSG:32632") {
   Raster<float> raster{Grid<float>(width, height),
                        {680000.0, 5240000.0, 20.0, 20.0},
                        crs.empty() ? crs : normalize_crs(crs)};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      raster.cells(x, y) =
-          2500.F - static_cast<float>(20.0 * std::abs(y - 90) * std::numbers::inv_sqrt3);
+  for (const auto [x, y] : test::cells(width, height))
+    raster.cells(x, y) =
+        2500.F - static_cast<float>(20.0 * std::abs(y - 90) * std::numbers::inv_sqrt3);
   return make_dem(std::move(raster));
 }
 
@@ -122,14 +122,13 @@ TEST(LayerClimate, RadiationIsThatOfTheGroundInAYear) {
 TEST(LayerClimate, TreelineLakeAndSeaAreTheRules) {
   Raster<float> raster{
       Grid<float>(200, 160), {680000.0, 5240000.0, 60.0, 60.0}, normalize_crs("EPSG:32632")};
-  for (int y = 0; y < 160; ++y)
-    for (int x = 0; x < 200; ++x) {
-      const double hill = std::max(0.0, 0.25 * 60.0 * (x - 60));
-      const double lake = 450.0 + std::max(0.0, 0.2 * (60.0 * std::hypot(x - 130, y - 80) - 900.0));
-      raster.cells(x, y) = static_cast<float>(x < 60                               ? 0.0
-                                              : std::hypot(x - 130, y - 80) < 30.0 ? lake
-                                                                                   : hill);
-    }
+  for (const auto [x, y] : test::cells(200, 160)) {
+    const double hill = std::max(0.0, 0.25 * 60.0 * (x - 60));
+    const double lake = 450.0 + std::max(0.0, 0.2 * (60.0 * std::hypot(x - 130, y - 80) - 900.0));
+    raster.cells(x, y) = static_cast<float>(x < 60                               ? 0.0
+                                            : std::hypot(x - 130, y - 80) < 30.0 ? lake
+                                                                                 : hill);
+  }
   const Dem dem = make_dem(std::move(raster));
   Climate climate = even_climate(dem);
   for (std::size_t m = 0; m < 12; ++m)
@@ -256,15 +255,14 @@ TEST(LayerClimate, AWindowHasTheClimateOfTheWholeAndItsShadows) {
       make_layer_climate(window, names, {}, {}, maker, silent_progress());
   float apart_alone = 0.F;
   ASSERT_TRUE(joined.radiation.same_size(window.altitude_m));
-  for (int y = 10; y < 30; ++y)
-    for (int x = 10; x < 30; ++x) {
-      EXPECT_NEAR(joined.temperature_c(x, y), of_whole.temperature_c(10 + x, 20 + y), 1e-4);
-      EXPECT_NEAR(joined.radiation(x, y), of_whole.radiation(10 + x, 20 + y),
-                  0.01F * of_whole.radiation(10 + x, 20 + y));
-      EXPECT_NEAR(joined.sky_view(x, y), of_whole.sky_view(10 + x, 20 + y), 0.005F);
-      apart_alone = std::max(apart_alone, std::abs(alone.temperature_c(x, y) -
-                                                   of_whole.temperature_c(10 + x, 20 + y)));
-    }
+  for (const auto [x, y] : test::cells({10, 10, 30, 30})) {
+    EXPECT_NEAR(joined.temperature_c(x, y), of_whole.temperature_c(10 + x, 20 + y), 1e-4);
+    EXPECT_NEAR(joined.radiation(x, y), of_whole.radiation(10 + x, 20 + y),
+                0.01F * of_whole.radiation(10 + x, 20 + y));
+    EXPECT_NEAR(joined.sky_view(x, y), of_whole.sky_view(10 + x, 20 + y), 0.005F);
+    apart_alone = std::max(
+        apart_alone, std::abs(alone.temperature_c(x, y) - of_whole.temperature_c(10 + x, 20 + y)));
+  }
   EXPECT_GT(apart_alone, 0.2F) << "the climate is the whole's";
 }
 

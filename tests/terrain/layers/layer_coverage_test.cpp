@@ -7,6 +7,7 @@
 
 #include "base/grid.h"
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/terrain/layers/metres.h"
 
 namespace belvedere {
@@ -68,12 +69,11 @@ std::vector<Grid<float>> waves(int count, const PixelRect& cells, const GeoTrans
   std::vector<Grid<float>> inputs;
   for (int i = 0; i < count; ++i) {
     Grid<float>& grid = inputs.emplace_back(cells.width(), cells.height());
-    for (int y = 0; y < grid.height(); ++y)
-      for (int x = 0; x < grid.width(); ++x) {
-        const glm::dvec2 at = transform.to_crs(cells.x0 + x, cells.y0 + y);
-        grid(x, y) = static_cast<float>(
-            0.5 + 0.5 * std::sin(at.x / (700.0 + 90.0 * i) + at.y / (900.0 - 70.0 * i) + i));
-      }
+    for (const auto [x, y] : test::cells(grid)) {
+      const glm::dvec2 at = transform.to_crs(cells.x0 + x, cells.y0 + y);
+      grid(x, y) = static_cast<float>(
+          0.5 + 0.5 * std::sin(at.x / (700.0 + 90.0 * i) + at.y / (900.0 - 70.0 * i) + i));
+    }
   }
   return inputs;
 }

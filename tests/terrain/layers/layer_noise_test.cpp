@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "terrain/layers/layer_picture.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -52,8 +53,8 @@ TEST(LayerNoise, IsAFunctionOfThePlaceAlone) {
   const GeoTransform moved{transform.origin_x + 7.0 * 16.0, transform.origin_y - 9.0 * 8.0, 7.0,
                            9.0};
   const Grid<float> other = noise(of, moved, {0, 0, 40, 40});
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) ASSERT_NEAR(other(x, y), whole(x + 16, y + 8), 1e-5);
+  for (const auto [x, y] : test::cells(40, 40))
+    ASSERT_NEAR(other(x, y), whole(x + 16, y + 8), 1e-5);
 }
 
 // The Gaussian field is that of base/random.h, octave by octave.
@@ -151,16 +152,15 @@ TEST(LayerRelief, SlopesAreThoseOfTheGroundAsThePictureFromAboveRaisesIt) {
   const GroundRelief relief = relief_of(layers, dem, 3);
   const GeoTransform fine{1000.0, 5000.0, cell_m / factor, cell_m / factor};
   double square = 0.0;
-  for (int y = 40; y < 140; ++y)
-    for (int x = 40; x < 140; ++x) {
-      const glm::dvec2 position = fine.to_crs(x, y);
-      const glm::dvec2 slope = bump_slope(relief, position, cell_m / factor);
-      const glm::vec3 normal = surface.normal(x, y);
-      // Central differences over two cells of 2.5 m of bumps of which the shortest are 10 m long.
-      ASSERT_NEAR(slope.x, -normal.x / normal.z, 0.015) << x << ' ' << y;
-      ASSERT_NEAR(slope.y, -normal.y / normal.z, 0.015) << x << ' ' << y;
-      square += glm::dot(slope, slope);
-    }
+  for (const auto [x, y] : test::cells({40, 40, 140, 140})) {
+    const glm::dvec2 position = fine.to_crs(x, y);
+    const glm::dvec2 slope = bump_slope(relief, position, cell_m / factor);
+    const glm::vec3 normal = surface.normal(x, y);
+    // Central differences over two cells of 2.5 m of bumps of which the shortest are 10 m long.
+    ASSERT_NEAR(slope.x, -normal.x / normal.z, 0.015) << x << ' ' << y;
+    ASSERT_NEAR(slope.y, -normal.y / normal.z, 0.015) << x << ' ' << y;
+    square += glm::dot(slope, slope);
+  }
   EXPECT_GT(std::sqrt(square / 1e4), 0.07) << "there are bumps";
 }
 
@@ -200,8 +200,8 @@ TEST(LayerRelief, CoverageScalesAndTiltsTheBumps) {
   GroundRelief half = all;
   for (float& share : half.bumps[0].share) share = 0.5F;
   GroundRelief growing = all;
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) growing.bumps[0].share(x, y) = static_cast<float>(x) / 40.F;
+  for (const auto [x, y] : test::cells(40, 40))
+    growing.bumps[0].share(x, y) = static_cast<float>(x) / 40.F;
   const LayerNoise noise = bump_noise(60.0);
   for (double x = 1200.0; x < 1600.0; x += 17.0) {
     const glm::dvec2 position(x, 4630.0);
@@ -229,11 +229,10 @@ Dem bowl() {
   dem.altitude_m = Grid<float>(200, 200);
   dem.filled = Grid<std::uint8_t>(200, 200, 0);
   dem.transform = {0.0, 0.0, 10.0, 10.0};
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x) {
-      const double r = 10.0 * std::hypot(x - 100, y - 100);
-      dem.altitude_m(x, y) = static_cast<float>(r <= 600.0 ? 500.0 : 500.0 + 0.2 * (r - 600.0));
-    }
+  for (const auto [x, y] : test::cells(200, 200)) {
+    const double r = 10.0 * std::hypot(x - 100, y - 100);
+    dem.altitude_m(x, y) = static_cast<float>(r <= 600.0 ? 500.0 : 500.0 + 0.2 * (r - 600.0));
+  }
   return dem;
 }
 

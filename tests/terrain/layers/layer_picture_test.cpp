@@ -11,6 +11,7 @@
 #include "base/filter.h"
 #include "base/grid.h"
 #include "base/parallel.h"
+#include "tests/grids.h"
 #include "tests/terrain/layers/metres.h"
 
 namespace belvedere {
@@ -43,10 +44,9 @@ Dem ramp(int size, float rise_east, float rise_south) {
   dem.altitude_m = Grid<float>(size, size);
   dem.filled = Grid<std::uint8_t>(size, size, 0);
   dem.transform = {1000.0, 5000.0, 10.0, 10.0};
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x)
-      dem.altitude_m(x, y) =
-          400.F + 10.F * (rise_east * static_cast<float>(x) + rise_south * static_cast<float>(y));
+  for (const auto [x, y] : test::cells(size, size))
+    dem.altitude_m(x, y) =
+        400.F + 10.F * (rise_east * static_cast<float>(x) + rise_south * static_cast<float>(y));
   return dem;
 }
 
@@ -83,11 +83,10 @@ TEST(LayerPicture, APlaneHasOneColourAtAnyFineness) {
 // ground.
 TEST(LayerPicture, LakesShowTheirBeds) {
   Dem bowl = ramp(120, 0.F, 0.F);
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 120; ++x) {
-      const double out = std::hypot(x - 60.0, y - 60.0);
-      if (out > 35.0) bowl.altitude_m(x, y) = static_cast<float>(400.0 + 3.0 * (out - 35.0));
-    }
+  for (const auto [x, y] : test::cells(120, 120)) {
+    const double out = std::hypot(x - 60.0, y - 60.0);
+    if (out > 35.0) bowl.altitude_m(x, y) = static_cast<float>(400.0 + 3.0 * (out - 35.0));
+  }
   const LayerPictureParameters parameters{.finer = 2};
   const SurfaceLayers brown = one_colour(0x806040);
   const Grid<glm::vec3> seen = drawn(bowl, brown, parameters);
@@ -134,9 +133,8 @@ Dem ground(int size, const std::function<double(double, double)>& altitude) {
   dem.altitude_m = Grid<float>(size, size);
   dem.filled = Grid<std::uint8_t>(size, size, 0);
   dem.transform = {1000.0, 5000.0, 10.0, 10.0};
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x)
-      dem.altitude_m(x, y) = static_cast<float>(altitude(10.0 * x, -10.0 * y));
+  for (const auto [x, y] : test::cells(size, size))
+    dem.altitude_m(x, y) = static_cast<float>(altitude(10.0 * x, -10.0 * y));
   return dem;
 }
 
@@ -172,14 +170,13 @@ TEST(LayerSurface, SplinePassesThroughTheCells) {
   EXPECT_NEAR(sample_bspline(spike, 20.0, 20.0), 44.4, 0.1);
   const Dem plane = ground(60, [](double x, double y) { return 300.0 + 0.2 * x + 0.1 * y; });
   const LayerSurface surface = whole_surface(rough_layers(0.0), plane, 4);
-  for (int y = 100; y < 140; ++y)
-    for (int x = 100; x < 140; ++x) {
-      ASSERT_NEAR(surface.altitude_m(x, y),
-                  300.0 + 0.2 * (2.5 * (x + 0.5) - 5.0) - 0.1 * (2.5 * (y + 0.5) - 5.0), 2e-3);
-      // (-.2, -.1, 1) of unit length: the plane rises to the east and to the north.
-      ASSERT_NEAR(surface.normal(x, y).x, -0.2 / std::sqrt(1.05), 1e-3);
-      ASSERT_NEAR(surface.normal(x, y).y, -0.1 / std::sqrt(1.05), 1e-3);
-    }
+  for (const auto [x, y] : test::cells({100, 100, 140, 140})) {
+    ASSERT_NEAR(surface.altitude_m(x, y),
+                300.0 + 0.2 * (2.5 * (x + 0.5) - 5.0) - 0.1 * (2.5 * (y + 0.5) - 5.0), 2e-3);
+    // (-.2, -.1, 1) of unit length: the plane rises to the east and to the north.
+    ASSERT_NEAR(surface.normal(x, y).x, -0.2 / std::sqrt(1.05), 1e-3);
+    ASSERT_NEAR(surface.normal(x, y).y, -0.1 / std::sqrt(1.05), 1e-3);
+  }
 }
 
 // No facets: second differences of a smooth hill, sampled eight times finer, are those of the hill,
@@ -211,17 +208,16 @@ TEST(LayerSurface, BumpsAreAddedWhereTheLayerLies) {
   const LayerSurface rough = whole_surface(rough_layers(2.0), level, 4);
   double largest = 0.0;
   double tilt = 0.0;
-  for (int y = 10; y < 150; ++y)
-    for (int x = 4; x < 156; ++x) {
-      const double bump =
-          std::abs(static_cast<double>(rough.altitude_m(x, y) - smooth.altitude_m(x, y)));
-      ASSERT_LE(bump, 2.0);
-      if (x > 100) {
-        ASSERT_EQ(bump, 0.0);
-      }
-      largest = std::max(largest, bump);
-      if (x < 60) tilt = std::max(tilt, static_cast<double>(1.F - rough.normal(x, y).z));
+  for (const auto [x, y] : test::cells({4, 10, 156, 150})) {
+    const double bump =
+        std::abs(static_cast<double>(rough.altitude_m(x, y) - smooth.altitude_m(x, y)));
+    ASSERT_LE(bump, 2.0);
+    if (x > 100) {
+      ASSERT_EQ(bump, 0.0);
     }
+    largest = std::max(largest, bump);
+    if (x < 60) tilt = std::max(tilt, static_cast<double>(1.F - rough.normal(x, y).z));
+  }
   EXPECT_GT(largest, 0.5);
   EXPECT_GT(tilt, 0.01);
 }
@@ -300,13 +296,12 @@ TEST(LayerDrawing, FrequencyIsTheShare) {
 TEST(LayerDrawing, SharpeningKeepsMeanShares) {
   constexpr int size = 600;
   std::vector<Grid<float>> shares = no_shares(size, size);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      const float t = static_cast<float>(x) / size;
-      of(shares, forest)(x, y) = 1.F - t;
-      of(shares, rock)(x, y) = 0.8F * t;
-      of(shares, snow)(x, y) = 0.2F * t;
-    }
+  for (const auto [x, y] : test::cells(size, size)) {
+    const float t = static_cast<float>(x) / size;
+    of(shares, forest)(x, y) = 1.F - t;
+    of(shares, rock)(x, y) = 0.8F * t;
+    of(shares, snow)(x, y) = 0.2F * t;
+  }
   const auto drawn_by = [&](double power) {
     LayerDrawingParameters parameters;
     parameters.power = power;
@@ -314,8 +309,8 @@ TEST(LayerDrawing, SharpeningKeepsMeanShares) {
   };
   const auto mixing = [&](const Grid<LandCoverClass>& drawn) {
     int edges = 0;
-    for (int y = 0; y < size; ++y)
-      for (int x = 1; x < size; ++x) edges += drawn(x, y) != drawn(x - 1, y) ? 1 : 0;
+    for (const auto [x, y] : test::cells({1, 0, size, size}))
+      edges += drawn(x, y) != drawn(x - 1, y) ? 1 : 0;
     return edges;
   };
   const Grid<LandCoverClass> as_shares_say = drawn_by(1.0);
@@ -336,8 +331,8 @@ TEST(LayerDrawing, LargeSpectraMakeLargePatches) {
     const Grid<LandCoverClass> drawn =
         draw_classes(plan_layer_drawing(parameters, shares), shares, metres, {0, 0, 400, 400});
     int count = 0;
-    for (int y = 0; y < 400; ++y)
-      for (int x = 1; x < 400; ++x) count += drawn(x, y) != drawn(x - 1, y) ? 1 : 0;
+    for (const auto [x, y] : test::cells({1, 0, 400, 400}))
+      count += drawn(x, y) != drawn(x - 1, y) ? 1 : 0;
     return count / (400.0 * 399.0);
   };
   EXPECT_GT(edges(0.0), 2.0 * edges(2.0));

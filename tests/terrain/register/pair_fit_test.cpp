@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <optional>
 
 #include "base/random.h"
 #include "tests/terrain/register/synthetic_view.h"

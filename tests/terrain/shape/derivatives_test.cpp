@@ -10,13 +10,13 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <utility>
 
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/synthetic/synthetic_plan.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/terrain/io/raster_files.h"
 
@@ -29,11 +29,9 @@ constexpr double surface_cell_m = 20.0;
 template <class F>
 Grid<float> surface(int size, F&& f) {
   Grid<float> grid(size, size);
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x)
-      grid(x, y) =
-          static_cast<float>(f((x - size / 2) * surface_cell_m, (size / 2 - y) * surface_cell_m));
-  }
+  for (const auto [x, y] : test::cells(size, size))
+    grid(x, y) =
+        static_cast<float>(f((x - size / 2) * surface_cell_m, (size / 2 - y) * surface_cell_m));
   return grid;
 }
 
@@ -166,9 +164,8 @@ TEST(Slope, WithinBoundsIsTheSlope) {
 
 Grid<float> rough(int width, int height) {
   Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      grid(x, y) = 800.F + 900.F * synthetic::ridged_noise(2, x / 40.0, y / 40.0, 5);
+  for (const auto [x, y] : test::cells(width, height))
+    grid(x, y) = 800.F + 900.F * synthetic::ridged_noise(2, x / 40.0, y / 40.0, 5);
   return grid;
 }
 
@@ -177,8 +174,7 @@ TEST(Hillshade, LevelGroundAndSlopesInClosedForm) {
             std::lround(1.0 + 254.0 * std::sin(0.25 * 3.14159265358979)));
   // A slope of 45° that faces the light is fully lit, one that faces away not at all.
   Grid<float> slope(9, 9);
-  for (int y = 0; y < 9; ++y)
-    for (int x = 0; x < 9; ++x) slope(x, y) = 30.F * static_cast<float>(y);
+  for (const auto [x, y] : test::cells(9, 9)) slope(x, y) = 30.F * static_cast<float>(y);
   EXPECT_EQ(hillshade(slope, 30.0, 30.0, {0.F, 45.F, 1.F})(4, 4), 255);
   EXPECT_EQ(hillshade(slope, 30.0, 30.0, {180.F, 40.F, 1.F})(4, 4), 1);
   EXPECT_EQ(hillshade(slope, 60.0, 30.0, {0.F, 45.F, 1.F})(4, 4), 255);  // cells need not be square
@@ -216,9 +212,8 @@ TEST_F(HillshadeFiles, IsWhatGdaldemMakes) {
   EXPECT_EQ(ours.transform, theirs.transform);
   EXPECT_EQ(read_raster_info(source).nodata, 0.0);
   float largest = 0.F;
-  for (int y = 1; y < 149; ++y)
-    for (int x = 1; x < 199; ++x)
-      largest = std::max(largest, std::abs(ours.cells(x, y) - theirs.cells(x, y)));
+  for (const auto [x, y] : test::cells({1, 1, 199, 149}))
+    largest = std::max(largest, std::abs(ours.cells(x, y) - theirs.cells(x, y)));
   EXPECT_LE(largest, 1.F);
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/grid.h"
+#include "tests/grids.h"
 
 namespace belvedere::test {
 
@@ -125,15 +126,13 @@ inline Heightfield::Heightfield(const Grid<glm::vec3>& vertices) : vertices_(ver
                    glm::dvec2(heightfield::infinity, -heightfield::infinity));
   row_y_.assign(static_cast<std::size_t>(height),
                 glm::dvec2(heightfield::infinity, -heightfield::infinity));
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const glm::dvec3 p(vertices(x, y));
-      if (!heightfield::is_finite(p)) continue;
-      glm::dvec2& column = column_x_[static_cast<std::size_t>(x)];
-      glm::dvec2& row = row_y_[static_cast<std::size_t>(y)];
-      column = {std::min(column.x, p.x), std::max(column.y, p.x)};
-      row = {std::min(row.x, p.y), std::max(row.y, p.y)};
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const glm::dvec3 p(vertices(x, y));
+    if (!heightfield::is_finite(p)) continue;
+    glm::dvec2& column = column_x_[static_cast<std::size_t>(x)];
+    glm::dvec2& row = row_y_[static_cast<std::size_t>(y)];
+    column = {std::min(column.x, p.x), std::max(column.y, p.x)};
+    row = {std::min(row.x, p.y), std::max(row.y, p.y)};
   }
 
   constexpr float lowest = -std::numeric_limits<float>::infinity();
@@ -147,9 +146,8 @@ inline Heightfield::Heightfield(const Grid<glm::vec3>& vertices) : vertices_(ver
   while (maxima_.back().size() > 1) {
     const Grid<float>& fine = maxima_.back();
     Grid<float> coarse((fine.width() + 1) / 2, (fine.height() + 1) / 2, lowest);
-    for (int y = 0; y < fine.height(); ++y)
-      for (int x = 0; x < fine.width(); ++x)
-        coarse(x / 2, y / 2) = std::max(coarse(x / 2, y / 2), fine(x, y));
+    for (const auto [x, y] : test::cells(fine))
+      coarse(x / 2, y / 2) = std::max(coarse(x / 2, y / 2), fine(x, y));
     maxima_.push_back(std::move(coarse));
   }
 }

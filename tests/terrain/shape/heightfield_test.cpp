@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -17,10 +18,9 @@ namespace {
 Grid<glm::vec3> random_surface(int width, int height, float cell_m, float relief_m,
                                std::uint64_t seed) {
   Grid<glm::vec3> vertices(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      vertices(x, y) = {static_cast<float>(x) * cell_m, static_cast<float>(height - 1 - y) * cell_m,
-                        relief_m * static_cast<float>(random_uniform(seed, x, y))};
+  for (const auto [x, y] : test::cells(width, height))
+    vertices(x, y) = {static_cast<float>(x) * cell_m, static_cast<float>(height - 1 - y) * cell_m,
+                      relief_m * static_cast<float>(random_uniform(seed, x, y))};
   return vertices;
 }
 
@@ -99,19 +99,17 @@ TEST(Heightfield, SplitsCellsAlongTheDiagonalOfTheTracer) {
 TEST(Heightfield, NoRayFallsThroughEdgesAndVertices) {
   const Grid<glm::vec3> vertices = random_surface(9, 9, 30.F, 60.F, 7);
   const test::Heightfield field(vertices);
-  for (int y = 1; y < 8; ++y) {
-    for (int x = 1; x < 8; ++x) {
-      const glm::dvec3 a(vertices(x, y));
-      for (const auto& [dx, dy] :
-           {std::pair{0, 0}, std::pair{1, 0}, std::pair{0, 1}, std::pair{1, -1}}) {
-        const glm::dvec3 target = 0.5 * (a + glm::dvec3(vertices(x + dx, y + dy)));
-        for (int i = 0; i < 8; ++i) {
-          const glm::dvec3 eye(120.0 + 300.0 * (random_uniform(9, i, 0) - 0.5),
-                               120.0 + 300.0 * (random_uniform(9, i, 1) - 0.5), 500.0);
-          EXPECT_TRUE(field.intersect(eye, target - eye)) << x << ' ' << y << " ray " << i;
-        }
-        EXPECT_TRUE(field.intersect({target.x, target.y, 500.0}, {0, 0, -1})) << x << ' ' << y;
+  for (const auto [x, y] : test::cells({1, 1, 8, 8})) {
+    const glm::dvec3 a(vertices(x, y));
+    for (const auto& [dx, dy] :
+         {std::pair{0, 0}, std::pair{1, 0}, std::pair{0, 1}, std::pair{1, -1}}) {
+      const glm::dvec3 target = 0.5 * (a + glm::dvec3(vertices(x + dx, y + dy)));
+      for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 eye(120.0 + 300.0 * (random_uniform(9, i, 0) - 0.5),
+                             120.0 + 300.0 * (random_uniform(9, i, 1) - 0.5), 500.0);
+        EXPECT_TRUE(field.intersect(eye, target - eye)) << x << ' ' << y << " ray " << i;
       }
+      EXPECT_TRUE(field.intersect({target.x, target.y, 500.0}, {0, 0, -1})) << x << ' ' << y;
     }
   }
 }

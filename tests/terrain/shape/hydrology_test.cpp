@@ -16,6 +16,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 
 // river_half_width_m and river_mask of terrain/shape/hydrology.h for given catchments.
@@ -25,10 +26,8 @@ namespace {
 
 Grid<float> rough(int width, int height, std::uint64_t seed) {
   Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x)
-      grid(x, y) = static_cast<float>(1000.0 + 50.0 * random_uniform(seed, x, y));
-  }
+  for (const auto [x, y] : test::cells(width, height))
+    grid(x, y) = static_cast<float>(1000.0 + 50.0 * random_uniform(seed, x, y));
   return grid;
 }
 
@@ -46,12 +45,10 @@ PlainFlood flood_plainly(const Grid<float>& altitude_m) {
   Grid<int> towards(width, height, -2);
   std::set<std::pair<float, std::size_t>> rising;
   std::vector<std::size_t> order;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      if (x > 0 && y > 0 && x < width - 1 && y < height - 1) continue;
-      towards(x, y) = -1;
-      rising.emplace(altitude_m(x, y), altitude_m.index(x, y));
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    if (x > 0 && y > 0 && x < width - 1 && y < height - 1) continue;
+    towards(x, y) = -1;
+    rising.emplace(altitude_m(x, y), altitude_m.index(x, y));
   }
   const auto each = [&](std::size_t cell, auto&& f) {
     const int x = static_cast<int>(cell) % width;
@@ -101,13 +98,11 @@ TEST(FlowAccumulation, IsThatOfAPlainFlood) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     for (const float step : {0.F, 1.F, 10.F, 25.F}) {
       Grid<float> ground = rough(83, 61, seed);
-      for (int y = 0; y < 61; ++y) {
-        for (int x = 0; x < 83; ++x) {
-          float& z = ground(x, y);
-          z += 0.05F * static_cast<float>((x - 40) * (x - 40) + (y - 30) * (y - 30)) -
-               (seed == 4 ? 1040.F : 0.F);
-          if (step > 0.F) z = step * std::floor(z / step);
-        }
+      for (const auto [x, y] : test::cells(83, 61)) {
+        float& z = ground(x, y);
+        z += 0.05F * static_cast<float>((x - 40) * (x - 40) + (y - 30) * (y - 30)) -
+             (seed == 4 ? 1040.F : 0.F);
+        if (step > 0.F) z = step * std::floor(z / step);
       }
       const PlainFlood plain = flood_plainly(ground);
       EXPECT_EQ(fill_hollows(ground), plain.level_m) << seed << ' ' << step;
@@ -122,23 +117,17 @@ TEST(FlowAccumulation, IsThatOfAPlainFlood) {
 TEST(FlowAccumulation, OfATiltedPlaneCountsTheCellsAbove) {
   // Falls to the south: each column is a catchment of its own.
   Grid<float> plane(7, 50);
-  for (int y = 0; y < 50; ++y) {
-    for (int x = 0; x < 7; ++x) plane(x, y) = 500.F - 3.F * static_cast<float>(y);
-  }
+  for (const auto [x, y] : test::cells(7, 50)) plane(x, y) = 500.F - 3.F * static_cast<float>(y);
   const Grid<float> area = flow_accumulation_km2(plane, 1000.0);
-  for (int y = 0; y < 50; ++y) {
-    for (int x = 0; x < 7; ++x)
-      EXPECT_FLOAT_EQ(area(x, y), static_cast<float>(y + 1)) << x << ' ' << y;
-  }
+  for (const auto [x, y] : test::cells(7, 50))
+    EXPECT_FLOAT_EQ(area(x, y), static_cast<float>(y + 1)) << x << ' ' << y;
 }
 
 TEST(FlowAccumulation, OfAValleyGathersBothFlanks) {
   // Flanks 1 in 2, a floor that falls to the south: all water leaves through the floor's last cell.
   Grid<float> valley(61, 80);
-  for (int y = 0; y < 80; ++y) {
-    for (int x = 0; x < 61; ++x)
-      valley(x, y) = 900.F - static_cast<float>(y) + 15.F * static_cast<float>(std::abs(x - 30));
-  }
+  for (const auto [x, y] : test::cells(61, 80))
+    valley(x, y) = 900.F - static_cast<float>(y) + 15.F * static_cast<float>(std::abs(x - 30));
   const Grid<float> area = flow_accumulation_km2(valley, 30.0);
   // Water runs off the flanks within a row or two, border cells keep theirs.
   EXPECT_NEAR(area(30, 79), 61 * 80 * 9e-4, 61 * 9e-4 * 1.5);
@@ -149,11 +138,9 @@ TEST(FlowAccumulation, OfAValleyGathersBothFlanks) {
 TEST(FlowAccumulation, FillsAHollowToItsOutlet) {
   // A bowl in a plane, its edge breached at one position: all rain in the bowl leaves there.
   Grid<float> bowl(41, 41);
-  for (int y = 0; y < 41; ++y) {
-    for (int x = 0; x < 41; ++x)
-      bowl(x, y) =
-          std::hypot(static_cast<float>(x - 20), static_cast<float>(y - 20)) < 15.F ? 100.F : 200.F;
-  }
+  for (const auto [x, y] : test::cells(41, 41))
+    bowl(x, y) =
+        std::hypot(static_cast<float>(x - 20), static_cast<float>(y - 20)) < 15.F ? 100.F : 200.F;
   for (int x = 34; x < 41; ++x) bowl(x, 20) = 150.F;
   const Grid<float> area = flow_accumulation_km2(bowl, 1000.0);
   const auto hollow = std::count_if(bowl.begin(), bowl.end(), [](float z) { return z < 160.F; });
@@ -166,14 +153,12 @@ TEST(FlowAccumulation, EveryCellDrainsStrictlyDownstream) {
   // the total outflow of the grid is complete.
   const Grid<float> ground = rough(70, 55, 4);
   const Grid<float> area = flow_accumulation_km2(ground, 1000.0);
-  for (int y = 1; y < 54; ++y) {
-    for (int x = 1; x < 69; ++x) {
-      bool drains = false;
-      for (int v = y - 1; v <= y + 1; ++v) {
-        for (int u = x - 1; u <= x + 1; ++u) drains = drains || area(u, v) > area(x, y);
-      }
-      ASSERT_TRUE(drains) << x << ' ' << y;
+  for (const auto [x, y] : test::cells({1, 1, 69, 54})) {
+    bool drains = false;
+    for (int v = y - 1; v <= y + 1; ++v) {
+      for (int u = x - 1; u <= x + 1; ++u) drains = drains || area(u, v) > area(x, y);
     }
+    ASSERT_TRUE(drains) << x << ' ' << y;
   }
   EXPECT_EQ(*std::min_element(area.begin(), area.end()), 1.F);
 }
@@ -182,11 +167,9 @@ TEST(FlowAccumulation, LosesNoWater) {
   // Noise full of hollows inside a moat that falls towards one corner: all water must leave there,
   // to the last cell.
   Grid<float> ground = rough(50, 40, 6);
-  for (int y = 0; y < 40; ++y) {
-    for (int x = 0; x < 50; ++x) {
-      if (x == 0 || y == 0 || x == 49 || y == 39)
-        ground(x, y) = 1.F + 0.5F * static_cast<float>(x + y);
-    }
+  for (const auto [x, y] : test::cells(50, 40)) {
+    if (x == 0 || y == 0 || x == 49 || y == 39)
+      ground(x, y) = 1.F + 0.5F * static_cast<float>(x + y);
   }
   EXPECT_EQ(flow_accumulation_km2(ground, 1000.0)(0, 0), 2000.F);
   EXPECT_FLOAT_EQ(flow_accumulation_km2(ground, 50.0)(0, 0), 5.F);
@@ -195,12 +178,10 @@ TEST(FlowAccumulation, LosesNoWater) {
 // A lake of 30 × 20 cells whose banks rise by `bank_m` per cell.
 Grid<float> with_lake(float level_m, float bank_m) {
   Grid<float> ground(80, 70);
-  for (int y = 0; y < 70; ++y) {
-    for (int x = 0; x < 80; ++x) {
-      const int dx = std::max({20 - x, x - 49, 0});
-      const int dy = std::max({25 - y, y - 44, 0});
-      ground(x, y) = level_m + bank_m * static_cast<float>(std::max(dx, dy));
-    }
+  for (const auto [x, y] : test::cells(80, 70)) {
+    const int dx = std::max({20 - x, x - 49, 0});
+    const int dy = std::max({25 - y, y - 44, 0});
+    ground(x, y) = level_m + bank_m * static_cast<float>(std::max(dx, dy));
   }
   return ground;
 }
@@ -208,14 +189,12 @@ Grid<float> with_lake(float level_m, float bank_m) {
 TEST(Lakes, AreFoundUpToTheirShore) {
   const Grid<std::uint8_t> lakes = find_lakes(with_lake(800.F, 1.F), {});
   int inside = 0;
-  for (int y = 0; y < 70; ++y) {
-    for (int x = 0; x < 80; ++x) {
-      const bool water = x >= 20 && x <= 49 && y >= 25 && y <= 44;
-      if (!water) {
-        EXPECT_EQ(lakes(x, y), 0) << x << ' ' << y;
-      }
-      inside += lakes(x, y);
+  for (const auto [x, y] : test::cells(80, 70)) {
+    const bool water = x >= 20 && x <= 49 && y >= 25 && y <= 44;
+    if (!water) {
+      EXPECT_EQ(lakes(x, y), 0) << x << ' ' << y;
     }
+    inside += lakes(x, y);
   }
   // Opening with a cross rounds the four corners off, by three cells each.
   EXPECT_GE(inside, 30 * 20 - 4 * 3);
@@ -227,9 +206,7 @@ TEST(Lakes, NeedSizeAndFlatness) {
   };
   EXPECT_EQ(count(find_lakes(with_lake(800.F, 1.F), {.max_range_m = 0.25F, .min_cells = 700})), 0);
   Grid<float> ripples = with_lake(800.F, 1.F);
-  for (int y = 0; y < 70; ++y) {
-    for (int x = 0; x < 80; ++x) ripples(x, y) += x % 2 == 0 ? 0.3F : 0.F;
-  }
+  for (const auto [x, y] : test::cells(80, 70)) ripples(x, y) += x % 2 == 0 ? 0.3F : 0.F;
   EXPECT_EQ(count(find_lakes(ripples, {})), 0);
   EXPECT_GT(count(find_lakes(ripples, {.max_range_m = 0.4F})), 500);
   // A channel three cells wide is not a lake, however long.
@@ -237,28 +214,21 @@ TEST(Lakes, NeedSizeAndFlatness) {
   for (int x = 0; x < 200; ++x) {
     for (int y = 14; y < 17; ++y) channel(x, y) = 40.F;
   }
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 200; ++x)
-      channel(x, y) += y < 14 || y > 16 ? static_cast<float>(std::abs(y - 15)) : 0.F;
-  }
+  for (const auto [x, y] : test::cells(200, 30))
+    channel(x, y) += y < 14 || y > 16 ? static_cast<float>(std::abs(y - 15)) : 0.F;
   EXPECT_EQ(count(find_lakes(channel, {})), 0);
 }
 
 TEST(Lakes, StepsOfAFloodPlainAreNone) {
   // A plain that falls 1 m in 30 cells, stored in whole metres: flats of 30 × 60 cells.
-  Grid<float> plain(240, 60);
-  for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 240; ++x) plain(x, y) = static_cast<float>(700 - x / 30);
-  }
+  Grid<float> plain = test::grid_of(240, 60, [&](int x, int) { return 700 - x / 30; });
   const auto count = [](const Grid<std::uint8_t>& mask) {
     return std::count(mask.begin(), mask.end(), 1);
   };
   EXPECT_EQ(count(find_lakes(plain, {})), 0);
   EXPECT_GT(count(find_lakes(plain, {.min_bank_m = 0.F})), 5000);
   // Nor where a wall of rock stands on one side of them.
-  for (int y = 0; y < 10; ++y) {
-    for (int x = 0; x < 240; ++x) plain(x, y) += 100.F * static_cast<float>(10 - y);
-  }
+  for (const auto [x, y] : test::cells(240, 10)) plain(x, y) += 100.F * static_cast<float>(10 - y);
   const Grid<std::uint8_t> lakes = find_lakes(plain, {});
   // The last step lies at the border and may be one: the ground beyond it is unknown.
   for (int y = 0; y < 60; ++y) EXPECT_EQ(std::count(lakes.row(y), lakes.row(y) + 210, 1), 0) << y;
@@ -273,11 +243,9 @@ Grid<float> tyrol_90m() {
   const Raster<float> raster = read_raster(source);
   Grid<float> ground(raster.cells.width() / 3, raster.cells.height() / 3);
   Grid<std::uint8_t> known(ground.width(), ground.height());
-  for (int y = 0; y < ground.height(); ++y) {
-    for (int x = 0; x < ground.width(); ++x) {
-      ground(x, y) = raster.cells(3 * x + 1, 3 * y + 1);
-      known(x, y) = std::isfinite(ground(x, y));
-    }
+  for (const auto [x, y] : test::cells(ground)) {
+    ground(x, y) = raster.cells(3 * x + 1, 3 * y + 1);
+    known(x, y) = std::isfinite(ground(x, y));
   }
   const Grid<std::int32_t> nearest = nearest_marked(known);
   Grid<float> filled = ground;
@@ -318,24 +286,20 @@ TEST(Hydrology, SameBitsForAnyThreadCount) {
 TEST(FlowAccumulation, WhatEntersAtTheRimIsCarriedDownstreamAlone) {
   // A valley that runs south, of cells of 1 km²; 250 km² come in at its head.
   Grid<float> valley(11, 30);
-  for (int y = 0; y < 30; ++y)
-    for (int x = 0; x < 11; ++x)
-      valley(x, y) =
-          500.F - 3.F * static_cast<float>(y) + 10.F * static_cast<float>(std::abs(x - 5));
+  for (const auto [x, y] : test::cells(11, 30))
+    valley(x, y) = 500.F - 3.F * static_cast<float>(y) + 10.F * static_cast<float>(std::abs(x - 5));
   const Grid<float> own = flow_accumulation_km2(valley, 1000.0);
   const Grid<float> with = flow_accumulation_km2(valley, 1000.0, {{5, 0, 250.0}, {400, 3, 9.0}});
-  for (int y = 0; y < 30; ++y)
-    for (int x = 0; x < 11; ++x)
-      EXPECT_FLOAT_EQ(with(x, y), own(x, y) + (x == 5 ? 250.F : 0.F)) << x << ' ' << y;
+  for (const auto [x, y] : test::cells(11, 30))
+    EXPECT_FLOAT_EQ(with(x, y), own(x, y) + (x == 5 ? 250.F : 0.F)) << x << ' ' << y;
 }
 
 TEST(Catchments, AreThoseOfTheDemWhoeverAsksAndHoweverOften) {
   Dem dem;
   dem.altitude_m = Grid<float>(50, 40);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 50; ++x)
-      dem.altitude_m(x, y) =
-          500.F - 3.F * static_cast<float>(y) + std::abs(static_cast<float>(x) - 20.F);
+  for (const auto [x, y] : test::cells(50, 40))
+    dem.altitude_m(x, y) =
+        500.F - 3.F * static_cast<float>(y) + std::abs(static_cast<float>(x) - 20.F);
   dem.transform = {0.0, 0.0, 100.0, 100.0};
   dem.entries = {{20, 0, 77.0}};
   const Grid<float> expected = flow_accumulation_km2(dem.altitude_m, 100.0, dem.entries);
@@ -462,13 +426,11 @@ TEST(Rivers, AreTheShareOfEachCellThatTheyCover) {
 TEST(Rivers, ASmoothedPathIsAStraightLine) {
   constexpr double cell_m = 50.0;
   const Grid<float> mask = river_mask(river_down(60, 100, [](int y) { return y / 2; }), cell_m);
-  for (int y = 40; y < 60; ++y) {
-    for (int x = 0; x < 60; ++x) {
-      const double distance_m = std::abs(x - (0.5 * y - 0.25)) / std::sqrt(1.25) * cell_m;
-      const double covered =
-          std::min(distance_m + 0.5 * cell_m, 29.0) - std::max(distance_m - 0.5 * cell_m, -29.0);
-      EXPECT_NEAR(mask(x, y), std::clamp(covered / cell_m, 0.0, 1.0), 2e-3) << x << ' ' << y;
-    }
+  for (const auto [x, y] : test::cells({0, 40, 60, 60})) {
+    const double distance_m = std::abs(x - (0.5 * y - 0.25)) / std::sqrt(1.25) * cell_m;
+    const double covered =
+        std::min(distance_m + 0.5 * cell_m, 29.0) - std::max(distance_m - 0.5 * cell_m, -29.0);
+    EXPECT_NEAR(mask(x, y), std::clamp(covered / cell_m, 0.0, 1.0), 2e-3) << x << ' ' << y;
   }
 }
 
@@ -478,8 +440,8 @@ TEST(Rivers, ATributaryDoesNotMoveItsRiver) {
   const Grid<float> alone = river_mask(area, 50.0);
   for (int x = 0; x < 20; ++x) area(x, 20) = 110.F + 1e-4F * static_cast<float>(x);
   const Grid<float> both = river_mask(area, 50.0);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 21; x < 41; ++x) ASSERT_EQ(both(x, y), alone(x, y)) << x << ' ' << y;
+  for (const auto [x, y] : test::cells({21, 0, 41, 40}))
+    ASSERT_EQ(both(x, y), alone(x, y)) << x << ' ' << y;
 }
 
 }  // namespace

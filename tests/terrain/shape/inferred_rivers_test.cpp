@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "tests/grids.h"
+
 namespace belvedere {
 namespace {
 
@@ -25,10 +27,9 @@ Grid<float> waters(double from_km2, double step_km2, bool brook = false) {
 // Steep to both sides of the river.
 Grid<float> valley() {
   Grid<float> out(121, rows);
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < 121; ++x)
-      out(x, y) =
-          1000.F + 20.F * static_cast<float>(std::abs(x - river_column)) - static_cast<float>(y);
+  for (const auto [x, y] : test::cells(121, rows))
+    out(x, y) =
+        1000.F + 20.F * static_cast<float>(std::abs(x - river_column)) - static_cast<float>(y);
   return out;
 }
 RiverBed everywhere(int, int) { return RiverBed::runs; }
@@ -152,10 +153,9 @@ RiverLine river(bool turns, double half_width_m) {
 // Level for that many cells to both sides of the central column, then steep.
 Grid<float> floor_of(int cells) {
   Grid<float> out(bends_size, bends_size);
-  for (int y = 0; y < bends_size; ++y)
-    for (int x = 0; x < bends_size; ++x)
-      out(x, y) =
-          500.F + 15.F * static_cast<float>(std::max(0, std::abs(x - bends_size / 2) - cells));
+  for (const auto [x, y] : test::cells(bends_size, bends_size))
+    out(x, y) =
+        500.F + 15.F * static_cast<float>(std::max(0, std::abs(x - bends_size / 2) - cells));
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "terrain/shape/hydrology.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -23,12 +24,11 @@ Dem winding_valley() {
   Raster<float> raster;
   raster.cells = Grid<float>(width, height);
   raster.transform = {600000.0, 5200000.0, river_cell_m, river_cell_m};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const double off = (y - bottom_row(x)) * river_cell_m;
-      raster.cells(x, y) = static_cast<float>(1500.0 - 0.01 * x * river_cell_m +
-                                              0.25 * std::abs(off) + 1e-5 * off * off);
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const double off = (y - bottom_row(x)) * river_cell_m;
+    raster.cells(x, y) = static_cast<float>(1500.0 - 0.01 * x * river_cell_m +
+                                            0.25 * std::abs(off) + 1e-5 * off * off);
+  }
   return make_dem(std::move(raster));
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "terrain/shape/mask_pieces.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -38,12 +39,11 @@ float land_at(int x, int y) {
 Dem coast(float level, float roughness) {
   Raster<float> raster;
   raster.cells = Grid<float>(sea_size, sea_size);
-  for (int y = 0; y < sea_size; ++y)
-    for (int x = 0; x < sea_size; ++x) {
-      const float land = land_at(x, y);
-      raster.cells(x, y) = land < 0.F ? level + roughness * noise_at(x, y)
-                                      : level + land + 0.3F * roughness * noise_at(x, y);
-    }
+  for (const auto [x, y] : test::cells(sea_size, sea_size)) {
+    const float land = land_at(x, y);
+    raster.cells(x, y) = land < 0.F ? level + roughness * noise_at(x, y)
+                                    : level + land + 0.3F * roughness * noise_at(x, y);
+  }
   raster.transform = {0.0, 0.0, sea_cell_m, sea_cell_m};
   return make_dem(std::move(raster));
 }
@@ -57,18 +57,17 @@ Score score_of(const Sea& sea, float sure_m) {
   double all = 0.0;
   double land = 0.0;
   Score score;
-  for (int y = 0; y < sea_size; ++y)
-    for (int x = 0; x < sea_size; ++x) {
-      const float z = land_at(x, y);
-      const bool is_sea = !sea.empty() && sea.mask(x, y) != 0;
-      if (z < 0.F) {
-        all += 1.0;
-        score.found += is_sea ? 1.0 : 0.0;
-      } else if (z > sure_m) {
-        land += 1.0;
-        score.wrong += is_sea ? 1.0 : 0.0;
-      }
+  for (const auto [x, y] : test::cells(sea_size, sea_size)) {
+    const float z = land_at(x, y);
+    const bool is_sea = !sea.empty() && sea.mask(x, y) != 0;
+    if (z < 0.F) {
+      all += 1.0;
+      score.found += is_sea ? 1.0 : 0.0;
+    } else if (z > sure_m) {
+      land += 1.0;
+      score.wrong += is_sea ? 1.0 : 0.0;
     }
+  }
   return {score.found / all, score.wrong / land};
 }
 
@@ -110,18 +109,14 @@ TEST(Sea, IslandsAndCliffsStayLand) {
 TEST(Sea, LandBelowItIsLand) {
   for (const float roughness : {0.F, 2.F}) {
     Dem dem = coast(0.F, roughness);
-    for (int y = 40; y < 110; ++y)
-      for (int x = 190; x < 260; ++x)
-        dem.altitude_m(x, y) = x < 193 || y < 43 || x > 256 || y > 106
-                                   ? 6.F
-                                   : -2.5F + 0.3F * roughness * noise_at(x, y);
-    for (int y = 150; y < 250; ++y)
-      for (int x = 330; x < sea_size; ++x) dem.altitude_m(x, y) = -80.F;
+    for (const auto [x, y] : test::cells({190, 40, 260, 110}))
+      dem.altitude_m(x, y) =
+          x < 193 || y < 43 || x > 256 || y > 106 ? 6.F : -2.5F + 0.3F * roughness * noise_at(x, y);
+    for (const auto [x, y] : test::cells({330, 150, sea_size, 250})) dem.altitude_m(x, y) = -80.F;
     const Sea sea = find_sea(dem);
     ASSERT_FALSE(sea.empty());
     EXPECT_NEAR(sea.level_m, 0.0, 0.1);
-    for (int y = 45; y < 105; ++y)
-      for (int x = 195; x < 255; ++x) ASSERT_EQ(sea.mask(x, y), 0);
+    for (const auto [x, y] : test::cells({195, 45, 255, 105})) ASSERT_EQ(sea.mask(x, y), 0);
     EXPECT_EQ(sea.mask(380, 200), 0);
     EXPECT_GT(score_of(sea, 3.F).found, 0.995);
   }
@@ -131,9 +126,8 @@ TEST(Sea, LandBelowItIsLand) {
 // sea.
 TEST(Sea, TidalFlatsEndAtItsLevel) {
   Dem dem = coast(0.F, 0.F);
-  for (int y = 20; y < 80; ++y)
-    for (int x = 90; x < 190; ++x)
-      dem.altitude_m(x, y) = -0.8F + 0.02F * static_cast<float>(x - 90);
+  for (const auto [x, y] : test::cells({90, 20, 190, 80}))
+    dem.altitude_m(x, y) = -0.8F + 0.02F * static_cast<float>(x - 90);
   const Sea sea = find_sea(dem);
   ASSERT_FALSE(sea.empty());
   EXPECT_EQ(sea.mask(100, 50), 1);
@@ -146,9 +140,8 @@ TEST(Sea, PlainsThatRiseGentlyAreNone) {
   for (const float roughness : {0.F, 0.5F}) {
     Raster<float> raster;
     raster.cells = Grid<float>(sea_size, sea_size);
-    for (int y = 0; y < sea_size; ++y)
-      for (int x = 0; x < sea_size; ++x)
-        raster.cells(x, y) = -3.F + 0.015F * static_cast<float>(x) + roughness * noise_at(x, y);
+    for (const auto [x, y] : test::cells(sea_size, sea_size))
+      raster.cells(x, y) = -3.F + 0.015F * static_cast<float>(x) + roughness * noise_at(x, y);
     raster.transform = {0.0, 0.0, sea_cell_m, sea_cell_m};
     EXPECT_TRUE(find_sea(make_dem(std::move(raster))).empty()) << roughness;
   }
@@ -157,9 +150,8 @@ TEST(Sea, PlainsThatRiseGentlyAreNone) {
 TEST(Sea, LakesByTheSeaAreNone) {
   // A lagoon at the sea's level that touches neither.
   Dem dem = coast(0.F, 0.F);
-  for (int y = 0; y < sea_size; ++y)
-    for (int x = 0; x < sea_size; ++x)
-      if (std::hypot(x - 300.0, y - 150.0) < 30.0) dem.altitude_m(x, y) = 0.F;
+  for (const auto [x, y] : test::cells(sea_size, sea_size))
+    if (std::hypot(x - 300.0, y - 150.0) < 30.0) dem.altitude_m(x, y) = 0.F;
   const Sea sea = find_sea(dem);
   EXPECT_EQ(sea.mask(300, 150), 0);
   EXPECT_EQ(sea.mask(10, 150), 1);
@@ -168,10 +160,9 @@ TEST(Sea, LakesByTheSeaAreNone) {
 TEST(Sea, RoughBaysBehindASpitAreSea) {
   for (const int farther : {0, 100}) {
     Dem dem = coast(0.F, 2.F);
-    for (int y = 0; y < sea_size; ++y)
-      for (int x = 0; x < sea_size; ++x)
-        if (std::hypot(x - 190.0 - farther, y - 100.0) < 50.0)
-          dem.altitude_m(x, y) = 2.F * noise_at(x, y);
+    for (const auto [x, y] : test::cells(sea_size, sea_size))
+      if (std::hypot(x - 190.0 - farther, y - 100.0) < 50.0)
+        dem.altitude_m(x, y) = 2.F * noise_at(x, y);
     EXPECT_EQ(find_sea(dem).mask(190 + farther, 100), farther == 0 ? 1 : 0);
   }
 }
@@ -181,14 +172,12 @@ TEST(Sea, HolesBesideItAreSea) {
   for (const int known_from : {60, 1000}) {
     Raster<float> raster;
     raster.cells = Grid<float>(sea_size, sea_size);
-    for (int y = 0; y < sea_size; ++y)
-      for (int x = 0; x < sea_size; ++x) {
-        const float land = land_at(x, y);
-        raster.cells(x, y) = land >= 0.F ? land : x < known_from ? NAN : 0.F;
-      }
+    for (const auto [x, y] : test::cells(sea_size, sea_size)) {
+      const float land = land_at(x, y);
+      raster.cells(x, y) = land >= 0.F ? land : x < known_from ? NAN : 0.F;
+    }
     // A void on a mountain at the border is not sea.
-    for (int y = 180; y < 220; ++y)
-      for (int x = 380; x < sea_size; ++x) raster.cells(x, y) = NAN;
+    for (const auto [x, y] : test::cells({380, 180, sea_size, 220})) raster.cells(x, y) = NAN;
     raster.transform = {0.0, 0.0, sea_cell_m, sea_cell_m};
     Dem dem = make_dem(std::move(raster));
     const Sea sea = find_sea(dem);
@@ -220,8 +209,8 @@ TEST(Sea, StandsWhereTheSceneSays) {
   // The bed is known: nothing is level.
   Raster<float> raster;
   raster.cells = Grid<float>(sea_size, sea_size);
-  for (int y = 0; y < sea_size; ++y)
-    for (int x = 0; x < sea_size; ++x) raster.cells(x, y) = 0.2F * static_cast<float>(x - 100);
+  for (const auto [x, y] : test::cells(sea_size, sea_size))
+    raster.cells(x, y) = 0.2F * static_cast<float>(x - 100);
   raster.transform = {0.0, 0.0, sea_cell_m, sea_cell_m};
   const Dem dem = make_dem(std::move(raster));
   EXPECT_TRUE(find_sea(dem).empty());
@@ -253,11 +242,10 @@ Dem part(const Dem& dem, int x0, int y0, int width, int height) {
   Dem out;
   out.altitude_m = Grid<float>(width, height);
   out.filled = Grid<std::uint8_t>(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      out.altitude_m(x, y) = dem.altitude_m(x0 + x, y0 + y);
-      out.filled(x, y) = dem.filled(x0 + x, y0 + y);
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    out.altitude_m(x, y) = dem.altitude_m(x0 + x, y0 + y);
+    out.filled(x, y) = dem.filled(x0 + x, y0 + y);
+  }
   out.transform = {dem.transform.origin_x + x0 * sea_cell_m,
                    dem.transform.origin_y - y0 * sea_cell_m, sea_cell_m, sea_cell_m};
   return out;
@@ -269,13 +257,11 @@ Dem coarse(const Dem& dem) {
       Grid<float>(sea_size / 4, sea_size / 4),
       {dem.transform.origin_x, dem.transform.origin_y, 4 * sea_cell_m, 4 * sea_cell_m},
       {}};
-  for (int y = 0; y < sea_size / 4; ++y)
-    for (int x = 0; x < sea_size / 4; ++x) {
-      float sum = 0.F;
-      for (int j = 0; j < 4; ++j)
-        for (int i = 0; i < 4; ++i) sum += dem.altitude_m(4 * x + i, 4 * y + j) / 16.F;
-      raster.cells(x, y) = sum;
-    }
+  for (const auto [x, y] : test::cells(sea_size / 4, sea_size / 4)) {
+    float sum = 0.F;
+    for (const auto [i, j] : test::cells(4, 4)) sum += dem.altitude_m(4 * x + i, 4 * y + j) / 16.F;
+    raster.cells(x, y) = sum;
+  }
   return make_dem(std::move(raster));
 }
 
@@ -288,8 +274,8 @@ TEST(SeaOfAWindow, IsThatOfTheWholeAtItsLevel) {
     Sea of_whole = find_sea(dem);
     const Grid<std::uint8_t> fine =
         std::exchange(of_whole.mask, Grid<std::uint8_t>(sea_size / 4, sea_size / 4));
-    for (int y = 0; y < sea_size / 4; ++y)
-      for (int x = 0; x < sea_size / 4; ++x) of_whole.mask(x, y) = fine(4 * x + 1, 4 * y + 2);
+    for (const auto [x, y] : test::cells(sea_size / 4, sea_size / 4))
+      of_whole.mask(x, y) = fine(4 * x + 1, 4 * y + 2);
     const Dem window = part(dem, 60, 40, 220, 240);
     const Sea sea = continue_sea(window, whole, of_whole);
     ASSERT_FALSE(sea.empty()) << roughness;
@@ -297,13 +283,12 @@ TEST(SeaOfAWindow, IsThatOfTheWholeAtItsLevel) {
     int wet = 0;
     int found = 0;
     int wrong = 0;
-    for (int y = 0; y < 240; ++y)
-      for (int x = 0; x < 220; ++x) {
-        const float land = land_at(60 + x, 40 + y);
-        wet += land < 0.F ? 1 : 0;
-        found += land < 0.F && sea.mask(x, y) != 0 ? 1 : 0;
-        wrong += land > 1.F + 2.F * roughness && sea.mask(x, y) != 0 ? 1 : 0;
-      }
+    for (const auto [x, y] : test::cells(220, 240)) {
+      const float land = land_at(60 + x, 40 + y);
+      wet += land < 0.F ? 1 : 0;
+      found += land < 0.F && sea.mask(x, y) != 0 ? 1 : 0;
+      wrong += land > 1.F + 2.F * roughness && sea.mask(x, y) != 0 ? 1 : 0;
+    }
     EXPECT_GT(found, 0.99 * wet) << roughness;
     EXPECT_LT(wrong, 0.005 * wet) << roughness
                                   << ": its shore is the window's, not the whole's steps";
@@ -315,8 +300,7 @@ TEST(SeaOfAWindow, IsThatOfTheWholeAtItsLevel) {
 TEST(SeaOfAWindow, LevelGroundAtItsRimIsNone) {
   // A basin at 0 m inland, cut by the window's border: alone the window takes it for sea.
   Dem dem = coast(0.F, 0.F);
-  for (int y = 60; y < 180; ++y)
-    for (int x = 250; x < 390; ++x) dem.altitude_m(x, y) = 0.F;
+  for (const auto [x, y] : test::cells({250, 60, 390, 180})) dem.altitude_m(x, y) = 0.F;
   const Dem whole = coarse(dem);
   const Sea of_whole = find_sea(whole, {.min_cells = 100});
   ASSERT_FALSE(of_whole.empty());

@@ -12,6 +12,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -40,10 +41,9 @@ Grid<float> flooded(Grid<float> z, const std::vector<std::int32_t>& outlets) {
 
 Grid<float> rough(int width, int height, int metres, std::uint64_t seed) {
   Grid<float> z(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      z(x, y) =
-          static_cast<float>(static_cast<int>(random_uniform(seed, x, y) * metres) - metres / 3);
+  for (const auto [x, y] : test::cells(width, height))
+    z(x, y) =
+        static_cast<float>(static_cast<int>(random_uniform(seed, x, y) * metres) - metres / 3);
   return z;
 }
 

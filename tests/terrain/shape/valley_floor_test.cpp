@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "terrain/io/dem.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -19,10 +20,8 @@ constexpr int centre = 60;
 // level ground beyond.
 Grid<float> trough() {
   Grid<float> ground(121, 60);
-  for (int y = 0; y < ground.height(); ++y)
-    for (int x = 0; x < ground.width(); ++x)
-      ground(x, y) =
-          500.F + 25.F * static_cast<float>(std::clamp(std::abs(x - centre) - 20, 0, 20));
+  for (const auto [x, y] : test::cells(ground))
+    ground(x, y) = 500.F + 25.F * static_cast<float>(std::clamp(std::abs(x - centre) - 20, 0, 20));
   return ground;
 }
 
@@ -51,25 +50,22 @@ TEST(ValleyFloor, APlainIsNone) {
 
 TEST(ValleyFloor, ALevelTerraceAboveItIsNone) {
   Grid<float> ground = trough();
-  for (int y = 0; y < ground.height(); ++y)
-    for (int x = 46; x < 54; ++x) ground(x, y) = 600.F;
+  for (const auto [x, y] : test::cells({46, 0, 54, ground.height()})) ground(x, y) = 600.F;
   EXPECT_EQ(find_valley_floor(ground, floor_cell_m)(50, 30), 0);
   EXPECT_EQ(find_valley_floor(ground, floor_cell_m, {.above_lowest_m = 120.0})(50, 30), 1);
 }
 
 TEST(ValleyFloor, GentleSlopesCountAsFarAsAllowed) {
   Grid<float> ground = trough();
-  for (int y = 0; y < ground.height(); ++y)
-    for (int x = 0; x < ground.width(); ++x)
-      ground(x, y) += 2.5F * static_cast<float>(y);  // atan(2.5 / 50) = 2.9°
+  for (const auto [x, y] : test::cells(ground))
+    ground(x, y) += 2.5F * static_cast<float>(y);  // atan(2.5 / 50) = 2.9°
   EXPECT_EQ(find_valley_floor(ground, floor_cell_m)(centre, 30), 1);
   EXPECT_EQ(find_valley_floor(ground, floor_cell_m, {.steepest_deg = 2.5})(centre, 30), 0);
 }
 
 TEST(ValleyFloor, VoidsAreNoneAndTakeNothingFromWhatLiesFarOff) {
   Grid<float> ground = trough();
-  for (int y = 0; y < 6; ++y)
-    for (int x = 0; x < ground.width(); ++x) ground(x, y) = NAN;
+  for (const auto [x, y] : test::cells(ground.width(), 6)) ground(x, y) = NAN;
   const Grid<std::uint8_t> floor = find_valley_floor(ground, floor_cell_m);
   EXPECT_EQ(floor(centre, 3), 0);
   EXPECT_EQ(floor(centre, 40), 1);
@@ -82,9 +78,8 @@ Dem whole_plane() {
   Dem dem;
   dem.transform = {50000.0, 90000.0, 90.0, 90.0};
   dem.altitude_m = Grid<float>(100, 80);
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 100; ++x)
-      dem.altitude_m(x, y) = static_cast<float>(plane(dem.transform.to_crs(x, y)));
+  for (const auto [x, y] : test::cells(100, 80))
+    dem.altitude_m(x, y) = static_cast<float>(plane(dem.transform.to_crs(x, y)));
   return dem;
 }
 
@@ -92,20 +87,18 @@ TEST(Surroundings, LieAroundTheWindowAsFarAsAskedAndAsThereIs) {
   const Dem whole = whole_plane();
   const GeoTransform transform{50000.0 + 20 * 90.0, 90000.0 - 2 * 90.0, 30.0, 30.0};
   Grid<float> own(60, 45);
-  for (int y = 0; y < 45; ++y)
-    for (int x = 0; x < 60; ++x)
-      own(x, y) = static_cast<float>(1000.0 + plane(transform.to_crs(x, y)));
+  for (const auto [x, y] : test::cells(60, 45))
+    own(x, y) = static_cast<float>(1000.0 + plane(transform.to_crs(x, y)));
   const Surrounded all = surround(own, transform, whole, 600.0);
   EXPECT_EQ(all.left, 20);
   EXPECT_EQ(all.top, 6) << "the whole ends there";
   EXPECT_EQ(all.altitude_m.width(), 20 + 60 + 20);
   EXPECT_EQ(all.altitude_m.height(), 6 + 45 + 20);
-  for (int y = 2; y < all.altitude_m.height(); ++y)
-    for (int x = 0; x < all.altitude_m.width(); ++x) {
-      const double higher = own.contains(x - all.left, y - all.top) ? 1000.0 : 0.0;
-      EXPECT_NEAR(all.altitude_m(x, y), higher + plane(all.transform.to_crs(x, y)), 0.02)
-          << x << ' ' << y;
-    }
+  for (const auto [x, y] : test::cells({0, 2, all.altitude_m.width(), all.altitude_m.height()})) {
+    const double higher = own.contains(x - all.left, y - all.top) ? 1000.0 : 0.0;
+    EXPECT_NEAR(all.altitude_m(x, y), higher + plane(all.transform.to_crs(x, y)), 0.02)
+        << x << ' ' << y;
+  }
 }
 
 using testing::ElementsAre;
@@ -119,12 +112,11 @@ struct Cone {
 };
 Grid<float> cones(int width, int height, const std::vector<Cone>& tops) {
   Grid<float> ground(width, height, 0.F);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (const Cone& cone : tops)
-        ground(x, y) = std::max(
-            ground(x, y), cone.top_m - 10.F * static_cast<float>(std::max(std::abs(x - cone.x),
-                                                                          std::abs(y - cone.y))));
+  for (const auto [x, y] : test::cells(width, height))
+    for (const Cone& cone : tops)
+      ground(x, y) = std::max(
+          ground(x, y), cone.top_m - 10.F * static_cast<float>(std::max(std::abs(x - cone.x),
+                                                                        std::abs(y - cone.y))));
   return ground;
 }
 

@@ -1,6 +1,5 @@
 #include "terrain/synthetic/synthetic.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "terrain/shape/derivatives.h"
 #include "terrain/synthetic/synthetic_erosion.h"
 #include "terrain/synthetic/synthetic_valleys.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -180,9 +180,8 @@ TEST(RidgedNoise, KeepsItsRangeAtAnySize) {
 
 Grid<float> random_ground(int width, int height, std::uint64_t seed) {
   Grid<float> z(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      z(x, y) = 100.F * static_cast<float>(random_uniform(seed, x, y));
+  for (const auto [x, y] : test::cells(width, height))
+    z(x, y) = 100.F * static_cast<float>(random_uniform(seed, x, y));
   return z;
 }
 
@@ -240,16 +239,14 @@ TEST(Erosion, SlopesDoNotPreferTheGridsDirections) {
 
 TEST(FillPits, LargeHollowsBecomeLevelLakesAndSmallOnesDrain) {
   Grid<float> z(30, 20);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 30; ++x) z(x, y) = 100.F + static_cast<float>(x);  // falls to the west
-  for (int y = 5; y < 11; ++y)
-    for (int x = 10; x < 18; ++x) z(x, y) = 90.F - static_cast<float>(y);
+  for (const auto [x, y] : test::cells(30, 20))
+    z(x, y) = 100.F + static_cast<float>(x);  // falls to the west
+  for (const auto [x, y] : test::cells({10, 5, 18, 11})) z(x, y) = 90.F - static_cast<float>(y);
   z(25, 5) = 80.F;
   const Grid<std::uint8_t> lake = synthetic::fill_pits(z, 20);
   EXPECT_EQ(std::count(lake.begin(), lake.end(), 1), 48);
   EXPECT_EQ(lake(12, 7), 1);
-  for (int y = 5; y < 11; ++y)
-    for (int x = 10; x < 18; ++x) EXPECT_EQ(z(x, y), z(10, 5));
+  for (const auto [x, y] : test::cells({10, 5, 18, 11})) EXPECT_EQ(z(x, y), z(10, 5));
   EXPECT_NEAR(z(10, 5), 109.F, 0.1F);  // the sill is its western shore
   EXPECT_EQ(lake(25, 5), 0);
   EXPECT_GT(z(25, 5), 124.F);

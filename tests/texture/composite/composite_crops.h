@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tests/grids.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/composite/learn_composite.h"
 
@@ -19,12 +20,11 @@ struct Composite {
 inline Composite two_textures(int width, int height) {
   Composite out{striped_crop(width, height, 8), Grid<std::uint8_t>(width, height)};
   const Grid<Rgb8> meadow = meadow_crop(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const double border = .5 * height + 5.0 * gaussian_noise(4, x, 0, 6.0, 1.0);
-      out.labels(x, y) = y < border ? 0 : 1;
-      if (out.labels(x, y) == 0) out.picture(x, y) = meadow(x, y);
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const double border = .5 * height + 5.0 * gaussian_noise(4, x, 0, 6.0, 1.0);
+    out.labels(x, y) = y < border ? 0 : 1;
+    if (out.labels(x, y) == 0) out.picture(x, y) = meadow(x, y);
+  }
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -12,8 +13,8 @@ namespace {
 template <class F>
 Grid<std::uint8_t> map_of(int width, int height, F&& label) {
   Grid<std::uint8_t> map(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) map(x, y) = static_cast<std::uint8_t>(label(x, y));
+  for (const auto [x, y] : test::cells(width, height))
+    map(x, y) = static_cast<std::uint8_t>(label(x, y));
   return map;
 }
 

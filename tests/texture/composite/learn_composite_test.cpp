@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/texture/composite/composite_crops.h"
 
 namespace belvedere {
@@ -42,11 +43,10 @@ TEST(LearnComposite, EachLabelIsLearntFromItsOwnPixels) {
 
 TEST(LearnComposite, UnknownPixelsBelongToNothing) {
   test::Composite two = test::two_textures(140, 140);
-  for (int y = 100; y < 140; ++y)
-    for (int x = 0; x < 60; ++x) {
-      two.picture(x, y) = {255, 0, 0};
-      two.labels(x, y) = no_label;
-    }
+  for (const auto [x, y] : test::cells({0, 100, 60, 140})) {
+    two.picture(x, y) = {255, 0, 0};
+    two.labels(x, y) = no_label;
+  }
   const CompositeModel model = learn_composite(two.crop(), test::quick_learning());
   EXPECT_LT(std::abs(model.labels[1].model.bands.mean[0] - model.labels[1].model.bands.mean[2]),
             8.F);
@@ -71,13 +71,11 @@ TEST(LearnComposite, BadLabelsAreNamed) {
   EXPECT_THAT(refusal(other.crop()), AllOf(HasSubstr("120 × 119"), HasSubstr("120 × 120")));
 
   test::Composite narrow = test::two_textures(120, 120);
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 120; ++x) narrow.labels(x, y) = x < 50 ? 1 : 0;
+  for (const auto [x, y] : test::cells(120, 120)) narrow.labels(x, y) = x < 50 ? 1 : 0;
   EXPECT_THAT(refusal(narrow.crop()), AllOf(HasSubstr("#808080"), HasSubstr("47 × 120")));
 
   test::Composite few = test::two_textures(120, 120);
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 120; ++x) few.labels(x, y) = std::abs(x - y) < 8 ? 1 : 0;
+  for (const auto [x, y] : test::cells(120, 120)) few.labels(x, y) = std::abs(x - y) < 8 ? 1 : 0;
   EXPECT_THAT(refusal(few.crop()), AllOf(HasSubstr("#808080"), HasSubstr("2304")));
 
   test::Composite flat = test::two_textures(120, 120);
@@ -89,12 +87,11 @@ TEST(LearnComposite, BadLabelsAreNamed) {
 // Light above a height, dark below.
 Grid<Rgb8> halves(int width, int height, bool turned) {
   Grid<Rgb8> out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const auto grain = static_cast<std::uint8_t>(random_index(8, 1, x, y));
-      const auto v = static_cast<std::uint8_t>(((y < height / 2) != turned ? 200 : 40) + grain);
-      out(x, y) = {v, v, static_cast<std::uint8_t>(v / 2)};
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const auto grain = static_cast<std::uint8_t>(random_index(8, 1, x, y));
+    const auto v = static_cast<std::uint8_t>(((y < height / 2) != turned ? 200 : 40) + grain);
+    out(x, y) = {v, v, static_cast<std::uint8_t>(v / 2)};
+  }
   return out;
 }
 
@@ -118,12 +115,11 @@ TEST(LayoutFigures, KnowTopFromBottomAtAnySize) {
 TEST(LayoutFigures, OfOtherColoursHaveNothingInCommon) {
   Grid<Rgb8> white(160, 160);
   Grid<Rgb8> blue(160, 160);
-  for (int y = 0; y < 160; ++y)
-    for (int x = 0; x < 160; ++x) {
-      const auto grain = static_cast<std::uint8_t>(random_index(8, 1, x, y));
-      white(x, y).fill(static_cast<std::uint8_t>(248 + grain));
-      blue(x, y) = {grain, grain, static_cast<std::uint8_t>(192 + grain)};
-    }
+  for (const auto [x, y] : test::cells(160, 160)) {
+    const auto grain = static_cast<std::uint8_t>(random_index(8, 1, x, y));
+    white(x, y).fill(static_cast<std::uint8_t>(248 + grain));
+    blue(x, y) = {grain, grain, static_cast<std::uint8_t>(192 + grain)};
+  }
   EXPECT_NEAR(layout_figures(white, blue).profile, 2.0, 1e-9);
 }
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/grid.h"
 #include "base/parallel.h"
+#include "tests/grids.h"
 #include "tests/texture/composite/composite_crops.h"
 #include "texture/composite/learn_composite.h"
 #include "texture/composite/make_label_map.h"
@@ -23,9 +24,8 @@ const TextureParameters quick_make{.rounds = 8, .sweeps = 3};
 
 Grid<std::uint8_t> drawn(int width, int height) {
   Grid<std::uint8_t> labels(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      labels(x, y) = (x - 50) * (x - 50) + (y - 40) * (y - 40) < 900 ? 1 : 0;
+  for (const auto [x, y] : test::cells(width, height))
+    labels(x, y) = (x - 50) * (x - 50) + (y - 40) * (y - 40) < 900 ? 1 : 0;
   return labels;
 }
 
@@ -114,11 +114,10 @@ TEST(SnapColours, TakesColoursOfTheTwoSides) {
   constexpr Rgb8 green{100, 120, 100};
   Grid<std::uint8_t> labels(60, 20);
   Grid<Rgb8> picture(60, 20);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 60; ++x) {
-      labels(x, y) = static_cast<std::uint8_t>(x / 20);
-      picture(x, y) = x < 20 ? red : x < 40 ? blue : green;
-    }
+  for (const auto [x, y] : test::cells(60, 20)) {
+    labels(x, y) = static_cast<std::uint8_t>(x / 20);
+    picture(x, y) = x < 20 ? red : x < 40 ? blue : green;
+  }
   Grid<std::uint8_t> zone(60, 20);
   zone(19, 10) = zone(20, 10) = zone(18, 4) = zone(21, 4) = 1;
   picture(19, 10) = {105, 110, 120};  // nearest to green, which is not nearby
@@ -144,12 +143,11 @@ const CompositeRecord& record() {
 // Discs on a ground.
 Grid<std::uint8_t> discs(int width, int height) {
   Grid<std::uint8_t> labels(width, height);
-  for (int y = 0; y < labels.height(); ++y)
-    for (int x = 0; x < labels.width(); ++x) {
-      const int u = x % 160 - 80;
-      const int v = y % 140 - 70;
-      labels(x, y) = u * u + v * v < 2500 ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(labels)) {
+    const int u = x % 160 - 80;
+    const int v = y % 140 - 70;
+    labels(x, y) = u * u + v * v < 2500 ? 1 : 0;
+  }
   return labels;
 }
 

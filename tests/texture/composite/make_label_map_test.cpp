@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -12,26 +13,25 @@ namespace {
 // Ragged patches of two labels and, in them, of a third.
 Grid<std::uint8_t> patches(int side, std::uint64_t seed) {
   Grid<std::uint8_t> map(side, side);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      const double wide =
-          gaussian_noise(seed, x, y, 12.0) + .25 * gaussian_noise(seed + 1, x, y, 2.0);
-      map(x, y) = wide > 1.1 ? 2 : wide > 0.0 ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(side, side)) {
+    const double wide =
+        gaussian_noise(seed, x, y, 12.0) + .25 * gaussian_noise(seed + 1, x, y, 2.0);
+    map(x, y) = wide > 1.1 ? 2 : wide > 0.0 ? 1 : 0;
+  }
   return map;
 }
 
 Grid<std::uint8_t> stripes(int width, int height) {
   Grid<std::uint8_t> map(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) map(x, y) = static_cast<std::uint8_t>(3 * y / height);
+  for (const auto [x, y] : test::cells(width, height))
+    map(x, y) = static_cast<std::uint8_t>(3 * y / height);
   return map;
 }
 
 double share_in_rows(const Grid<std::uint8_t>& map, int y0, int y1, int label) {
   double n = 0.0;
-  for (int y = y0; y < y1; ++y)
-    for (int x = 0; x < map.width(); ++x) n += map(x, y) == label ? 1.0 : 0.0;
+  for (const auto [x, y] : test::cells({0, y0, map.width(), y1}))
+    n += map(x, y) == label ? 1.0 : 0.0;
   return n / (map.width() * (y1 - y0));
 }
 
@@ -72,8 +72,8 @@ TEST(MakeLabelMap, StripesKeepTopAndBottom) {
 // map, but not the position of the band.
 TEST(MakeLabelMap, LayoutIsKeptOfWhatCouldLieAnywhere) {
   Grid<std::uint8_t> crop = patches(192, 21);
-  for (int y = 0; y < 192; ++y)
-    for (int x = 0; x < 192; ++x) crop(x, y) = y >= 40 && y < 80 && crop(x, y) > 0 ? 1 : 0;
+  for (const auto [x, y] : test::cells(192, 192))
+    crop(x, y) = y >= 40 && y < 80 && crop(x, y) > 0 ? 1 : 0;
   const LabelMapModel model = learn_label_map(crop, 2);
   const double there = share_in_rows(crop, 45, 75, 1);
   const Grid<std::uint8_t> with = make_label_map(model, 192, 192, {.effort = .5});

@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -15,17 +16,15 @@ Exemplar two_hands(int left, int right) {
   exemplar.picture = Grid<Rgb8>(160, 120);
   exemplar.guides.label = Grid<std::uint8_t>(160, 120, 4);
   exemplar.guides.guides = {{"altitude", Grid<std::uint8_t>(160, 120)}};
-  for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 160; ++x) {
-      const int contrast = x < 80 ? left : right;
-      const int grey =
-          128 +
-          static_cast<int>(random_index(static_cast<std::uint32_t>(2 * contrast + 1), 3, x, y)) -
-          contrast;
-      exemplar.picture(x, y).fill(static_cast<std::uint8_t>(grey));
-      exemplar.guides.guides[0].values(x, y) =
-          static_cast<std::uint8_t>(y < 60 ? 20 + y : 60 + y);  // 20…79, 120…179
-    }
+  for (const auto [x, y] : test::cells(160, 120)) {
+    const int contrast = x < 80 ? left : right;
+    const int grey =
+        128 +
+        static_cast<int>(random_index(static_cast<std::uint32_t>(2 * contrast + 1), 3, x, y)) -
+        contrast;
+    exemplar.picture(x, y).fill(static_cast<std::uint8_t>(grey));
+    exemplar.guides.guides[0].values(x, y) =
+        static_cast<std::uint8_t>(y < 60 ? 20 + y : 60 + y);  // 20…79, 120…179
   }
   return exemplar;
 }
@@ -94,10 +93,9 @@ TEST(ExemplarSurvey, TellsHowManyPixelsFindTexelsOfTheirAltitude) {
 // Bars along a row, 12 pixels long and 1 high: their run is measured.
 TEST(ExemplarSurvey, TellsHowLongStrokesAre) {
   Exemplar exemplar = two_hands(60, 60);
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x)
-      exemplar.picture(x, y).fill(
-          static_cast<std::uint8_t>(random_index(2, 8, (x + 5 * y) / 12, y) == 0 ? 20 : 220));
+  for (const auto [x, y] : test::cells(160, 120))
+    exemplar.picture(x, y).fill(
+        static_cast<std::uint8_t>(random_index(2, 8, (x + 5 * y) / 12, y) == 0 ? 20 : 220));
   EXPECT_GT(survey_exemplar(exemplar).classes.at(0).stroke_run_px, 12.0);
 }
 

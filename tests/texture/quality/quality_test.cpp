@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "tests/grids.h"
 #include "texture/quality/quality_parts.h"
 #include "texture/synthesis/synthesize.h"
 
@@ -25,10 +25,8 @@ Rgb8 grey(int value) {
 // Horizontal dashes of `length` pixels, each with its own brightness.
 Grid<Rgb8> dashes(int width, int height, int length, std::uint64_t seed) {
   Grid<Rgb8> picture(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      picture(x, y) = grey(40 + static_cast<int>(random_index(160, seed, (x + 7 * y) / length, y)));
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    picture(x, y) = grey(40 + static_cast<int>(random_index(160, seed, (x + 7 * y) / length, y)));
   }
   return picture;
 }
@@ -39,11 +37,9 @@ Exemplar exemplar_of(const Grid<Rgb8>& picture) {
   exemplar.picture = picture;
   exemplar.guides.label = Grid<std::uint8_t>(picture.width(), picture.height(), 1);
   Grid<std::uint8_t> altitude(picture.width(), picture.height());
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
-      if (x >= picture.width() / 2) exemplar.guides.label(x, y) = 2;
-      altitude(x, y) = static_cast<std::uint8_t>(y);
-    }
+  for (const auto [x, y] : test::cells(picture)) {
+    if (x >= picture.width() / 2) exemplar.guides.label(x, y) = 2;
+    altitude(x, y) = static_cast<std::uint8_t>(y);
   }
   exemplar.guides.guides = {{"altitude", altitude}};
   return exemplar;
@@ -51,10 +47,8 @@ Exemplar exemplar_of(const Grid<Rgb8>& picture) {
 
 MatchField identity(int width, int height) {
   MatchField field(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x)
-      field(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
-  }
+  for (const auto [x, y] : test::cells(width, height))
+    field(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
   return field;
 }
 
@@ -114,10 +108,8 @@ TEST(Quality, SilhouettesCountPairsAcrossJumpsOnly) {
   const Exemplar exemplar = exemplar_of(dashes(40, 30, 6, 1));
   GuideStack target = exemplar.guides;
   target.depth_m = Grid<float>(40, 30, 1000.0F);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 10; x < 40; ++x)
-      target.depth_m(x, y) = x < 30 ? 1100.0F : std::numeric_limits<float>::infinity();
-  }
+  for (const auto [x, y] : test::cells({10, 0, 40, 30}))
+    target.depth_m(x, y) = x < 30 ? 1100.0F : std::numeric_limits<float>::infinity();
   MatchField field = identity(40, 30);
   EXPECT_EQ(measure_quality(field, {exemplar}, target, {.repeat_samples = 0}).across_silhouettes,
             1.0);
@@ -144,18 +136,14 @@ TEST(Quality, StrokeRunTellsLongStrokesFromShort) {
   // The same rotated by 90°.
   const Grid<Rgb8> lying = dashes(200, 200, 16, 3);
   Grid<Rgb8> standing(200, 200);
-  for (int y = 0; y < 200; ++y) {
-    for (int x = 0; x < 200; ++x) standing(x, y) = lying(y, x);
-  }
+  for (const auto [x, y] : test::cells(200, 200)) standing(x, y) = lying(y, x);
   EXPECT_NEAR(stroke_run(standing, labels, border_distance_squared(labels), 1, 3), run(16), 0.5);
   EXPECT_TRUE(std::isnan(stroke_run(lying, labels, border_distance_squared(labels), 2, 3)));
 }
 
 TEST(Quality, ToleranceIsHalfTheLocalDeviation) {
   Grid<Rgb8> board(60, 60);
-  for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 60; ++x) board(x, y) = grey((x + y) % 2 == 0 ? 100 : 120);
-  }
+  for (const auto [x, y] : test::cells(60, 60)) board(x, y) = grey((x + y) % 2 == 0 ? 100 : 120);
   // 25 of one and 24 of the other, 60 apart in r + g + b: deviation 29.99.
   EXPECT_EQ(stroke_tolerance(board, Grid<std::uint8_t>(60, 60, 1), 1), 14);
 }
@@ -167,11 +155,9 @@ TEST(Quality, ShiftAndBlurShowInTheirFigures) {
   Exemplar exemplar = exemplar_of(picture);
   Exemplar brighter = exemplar;
   Exemplar blurred = exemplar;
-  for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 160; ++x) {
-      brighter.picture(x, y) = grey(picture(x, y)[0] + 7);
-      blurred.picture(x, y) = grey((picture.clamped(x, y - 1)[0] + picture(x, y)[0]) / 2);
-    }
+  for (const auto [x, y] : test::cells(160, 120)) {
+    brighter.picture(x, y) = grey(picture(x, y)[0] + 7);
+    blurred.picture(x, y) = grey((picture.clamped(x, y - 1)[0] + picture(x, y)[0]) / 2);
   }
   quality::Histogram plain{};
   quality::Histogram shifted{};
@@ -190,9 +176,7 @@ TEST(Quality, ShiftAndBlurShowInTheirFigures) {
             0.05);
   // Weights for the upper half only: the lower bound is the difference of the upper half itself.
   Grid<float> upper(160, 120, 0.0F);
-  for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 160; ++x) upper(x, y) = 1.0F;
-  }
+  for (const auto [x, y] : test::cells(160, 60)) upper(x, y) = 1.0F;
   const quality::CliqueDistances same =
       quality::clique_distances(picture, one_class, {exemplar}, {upper}, 1);
   EXPECT_EQ(same.distance, 0.0);
@@ -202,10 +186,7 @@ TEST(Quality, ShiftAndBlurShowInTheirFigures) {
 }
 
 TEST(Quality, GradientOfARampIsItsSlope) {
-  Grid<Rgb8> ramp(80, 40);
-  for (int y = 0; y < 40; ++y) {
-    for (int x = 0; x < 80; ++x) ramp(x, y) = grey(3 * x);
-  }
+  const Grid<Rgb8> ramp = test::grid_of<Rgb8>(80, 40, [&](int x, int) { return grey(3 * x); });
   EXPECT_NEAR(
       mean_gradient(ramp, Grid<std::uint8_t>(80, 40, 1), Grid<std::uint8_t>(80, 40, 255), 1), 3.0,
       1e-12);
@@ -214,21 +195,16 @@ TEST(Quality, GradientOfARampIsItsSlope) {
 TEST(Quality, FloorIsWhatOtherAltitudesMakeByThemselves) {
   // Brightness is altitude. The target contains only the upper half of it, copied without faults:
   // all its distance is the lower bound.
-  Grid<Rgb8> picture(100, 200);
-  for (int y = 0; y < 200; ++y) {
-    for (int x = 0; x < 100; ++x) picture(x, y) = grey(y);
-  }
+  const Grid<Rgb8> picture = test::grid_of<Rgb8>(100, 200, [&](int, int y) { return grey(y); });
   Exemplar exemplar = exemplar_of(picture);
   GuideStack target;
   target.label = Grid<std::uint8_t>(100, 96);
   target.guides = {{"altitude", Grid<std::uint8_t>(100, 96)}};
   MatchField field(100, 96);
-  for (int y = 0; y < 96; ++y) {
-    for (int x = 0; x < 100; ++x) {
-      target.label(x, y) = exemplar.guides.label(x, y + 96);
-      target.guides[0].values(x, y) = static_cast<std::uint8_t>(y + 96);
-      field(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y + 96)};
-    }
+  for (const auto [x, y] : test::cells(100, 96)) {
+    target.label(x, y) = exemplar.guides.label(x, y + 96);
+    target.guides[0].values(x, y) = static_cast<std::uint8_t>(y + 96);
+    field(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y + 96)};
   }
   const SynthesisQuality q = measure_quality(field, {exemplar}, target, {.repeat_samples = 0});
   for (const ClassQuality& c : q.classes) {
@@ -267,14 +243,12 @@ TEST(Quality, FloorIsWhatOtherDistancesFromBordersMakeByThemselves) {
   const Grid<std::uint8_t> offered = border_distance_squared(exemplar.guides.label);
   exemplar.picture = Grid<Rgb8>(offered.width(), offered.height());
   std::array<std::array<Match, 5>, 3> texel{};  // one of each class and distance
-  for (int y = 0; y < offered.height(); ++y) {
-    for (int x = 0; x < offered.width(); ++x) {
-      const int label = exemplar.guides.label(x, y);
-      const int step = step_of(offered(x, y));
-      exemplar.picture(x, y) = grey(120 * (label - 1) + 20 * step);
-      texel.at(static_cast<std::size_t>(label)).at(static_cast<std::size_t>(step)) = {
-          0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
-    }
+  for (const auto [x, y] : test::cells(offered)) {
+    const int label = exemplar.guides.label(x, y);
+    const int step = step_of(offered(x, y));
+    exemplar.picture(x, y) = grey(120 * (label - 1) + 20 * step);
+    texel.at(static_cast<std::size_t>(label)).at(static_cast<std::size_t>(step)) = {
+        0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
   }
   GuideStack target;
   target.label = stripes({4, 8, 16, 28, 40}, 100);
@@ -293,44 +267,34 @@ TEST(Quality, FloorIsWhatOtherDistancesFromBordersMakeByThemselves) {
 
 TEST(Quality, BorderDistanceEqualsASearch) {
   Grid<std::uint8_t> labels(60, 50);
-  for (int y = 0; y < 50; ++y) {
-    for (int x = 0; x < 60; ++x)
-      labels(x, y) = static_cast<std::uint8_t>(random_index(2, 4, x / 23, y / 17));
-  }
+  for (const auto [x, y] : test::cells(60, 50))
+    labels(x, y) = static_cast<std::uint8_t>(random_index(2, 4, x / 23, y / 17));
   const Grid<std::uint8_t> fast = border_distance_squared(labels);
-  for (int y = 0; y < 50; ++y) {
-    for (int x = 0; x < 60; ++x) {
-      int min = 255;
-      for (int j = 0; j < 50; ++j) {
-        for (int i = 0; i < 60; ++i) {
-          const bool border = (i > 0 && labels(i, j) != labels(i - 1, j)) ||
-                              (j > 0 && labels(i, j) != labels(i, j - 1));
-          if (border) min = std::min(min, (i - x) * (i - x) + (j - y) * (j - y));
-        }
-      }
-      if (min < 225) {
-        ASSERT_EQ(fast(x, y), min) << x << ", " << y;
-      } else {
-        ASSERT_GE(fast(x, y), 225);
-      }
+  for (const auto [x, y] : test::cells(60, 50)) {
+    int min = 255;
+    for (const auto [i, j] : test::cells(60, 50)) {
+      const bool border = (i > 0 && labels(i, j) != labels(i - 1, j)) ||
+                          (j > 0 && labels(i, j) != labels(i, j - 1));
+      if (border) min = std::min(min, (i - x) * (i - x) + (j - y) * (j - y));
+    }
+    if (min < 225) {
+      ASSERT_EQ(fast(x, y), min) << x << ", " << y;
+    } else {
+      ASSERT_GE(fast(x, y), 225);
     }
   }
 }
 
 TEST(Quality, SpecksAreSinglePixels) {
   Grid<Rgb8> picture(60, 60, grey(100));
-  for (int y = 3; y < 60; y += 6) {
-    for (int x = 3; x < 60; x += 6) picture(x, y) = grey(140);
-  }
+  for (const auto [x, y] : test::cells({3, 3, 60, 60}, 6)) picture(x, y) = grey(140);
   const Grid<std::uint8_t> one_class(60, 60, 1);
   EXPECT_NEAR(speck_shares(picture, border_distance_squared(one_class)).inside, 1.0 / 36.0, 1e-9);
-  for (int y = 3; y < 60; y += 6) {
-    for (int x = 3; x < 60; x += 6) {
-      for (int i = 0; i < 4; ++i)
-        picture(x - 1 + (i & 1), y - 1 + (i >> 1)) = grey(140);  // 2 × 2: still outliers
-      for (int i = -2; i <= 2; ++i)
-        picture(x + i, y) = picture(x + i, y - 1) = grey(140);  // a stroke
-    }
+  for (const auto [x, y] : test::cells({3, 3, 60, 60}, 6)) {
+    for (int i = 0; i < 4; ++i)
+      picture(x - 1 + (i & 1), y - 1 + (i >> 1)) = grey(140);  // 2 × 2: still outliers
+    for (int i = -2; i <= 2; ++i)
+      picture(x + i, y) = picture(x + i, y - 1) = grey(140);  // a stroke
   }
   EXPECT_LT(speck_shares(picture, border_distance_squared(one_class)).inside, 1.0 / 36.0 * 4.0);
   EXPECT_EQ(speck_shares(Grid<Rgb8>(60, 60, grey(9)), border_distance_squared(one_class)).inside,
@@ -350,11 +314,9 @@ Exemplar two_flats(int width, int height, std::uint8_t left, int left_grey, std:
   Exemplar exemplar;
   exemplar.picture = Grid<Rgb8>(width, height);
   exemplar.guides.label = Grid<std::uint8_t>(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      exemplar.picture(x, y) = grey(x < width / 2 ? left_grey : right_grey);
-      exemplar.guides.label(x, y) = x < width / 2 ? left : right;
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    exemplar.picture(x, y) = grey(x < width / 2 ? left_grey : right_grey);
+    exemplar.guides.label(x, y) = x < width / 2 ? left : right;
   }
   return exemplar;
 }
@@ -362,9 +324,7 @@ Exemplar two_flats(int width, int height, std::uint8_t left, int left_grey, std:
 // Left half from the first exemplar, right half from the second, all from their own positions.
 MatchField halves(int width, int height) {
   MatchField field = identity(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = width / 2; x < width; ++x) field(x, y).exemplar = 1;
-  }
+  for (const auto [x, y] : test::cells({width / 2, 0, width, height})) field(x, y).exemplar = 1;
   return field;
 }
 
@@ -385,9 +345,7 @@ TEST(Quality, SeamsOfFlatColoursStepAsReckoned) {
   // where chance makes 30 and 30.
   std::vector<Exemplar> strangers{two_flats(20, 10, 1, 40, 2, 60),
                                   two_flats(20, 10, 2, 70, 3, 100)};
-  for (int y = 0; y < 10; ++y) {
-    for (int x = 0; x < 5; ++x) strangers[0].picture(x, y) = grey(20);
-  }
+  for (const auto [x, y] : test::cells(5, 10)) strangers[0].picture(x, y) = grey(20);
   const SeamVisibility strange = seam_visibility(halves(20, 10), strangers, {}, 1.04F).between;
   EXPECT_EQ(strange.compared, 10U);
   EXPECT_NEAR(strange.visibility, 60.0 / (70.0 * 50.0 / 60.0), 1e-12);
@@ -410,9 +368,8 @@ TEST(Quality, SeamsAreJudgedByTheirClassAndKind) {
   // and d − 10, in the paintings they are 10.
   const auto board = [](int add) {
     Exemplar exemplar = two_flats(20, 10, 1, 0, 1, 0);
-    for (int y = 0; y < 10; ++y) {
-      for (int x = 0; x < 20; ++x) exemplar.picture(x, y) = grey(100 + add + (x + y) % 2 * 10);
-    }
+    for (const auto [x, y] : test::cells(20, 10))
+      exemplar.picture(x, y) = grey(100 + add + (x + y) % 2 * 10);
     return exemplar;
   };
   for (const int d : {0, 10, 40}) {
@@ -433,9 +390,7 @@ TEST(Quality, SeamsAreJudgedByTheirClassAndKind) {
   field(9, 0) = Match{};
   EXPECT_EQ(seam_visibility(field, {board(0), board(40)}, {}, 1.04F).between.pairs, 9U);
   Grid<float> depth(20, 10, 1000.0F);
-  for (int y = 0; y < 5; ++y) {
-    for (int x = 10; x < 20; ++x) depth(x, y) = 1100.0F;
-  }
+  for (const auto [x, y] : test::cells({10, 0, 20, 5})) depth(x, y) = 1100.0F;
   EXPECT_EQ(seam_visibility(field, {board(0), board(40)}, depth, 1.04F).between.pairs, 5U);
   EXPECT_EQ(seam_visibility(field, {board(0), board(40)}, depth, 1.2F).between.pairs, 9U);
 }
@@ -443,10 +398,8 @@ TEST(Quality, SeamsAreJudgedByTheirClassAndKind) {
 TEST(Quality, SeamsBetweenCopiesOfOnePaintingAreItsNeighbours) {
   const Exemplar exemplar = exemplar_of(dashes(40, 30, 6, 1));
   MatchField field = identity(40, 30);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x)
-      field(x, y).exemplar = static_cast<std::uint16_t>((x + y) % 2);  // every pair is a seam
-  }
+  for (const auto [x, y] : test::cells(40, 30))
+    field(x, y).exemplar = static_cast<std::uint16_t>((x + y) % 2);  // every pair is a seam
   const SynthesisQuality q =
       measure_quality(field, {exemplar, exemplar}, exemplar.guides, {.repeat_samples = 0});
   EXPECT_EQ(q.exemplars, 2U);
@@ -464,21 +417,17 @@ TEST(Quality, SynthesisKnitsPaintingsAndPaintingsOfAnotherToneShow) {
   // different paintings.
   const auto painting = [](std::uint64_t seed, std::uint8_t own, int add) {
     Exemplar exemplar = exemplar_of(dashes(96, 80, 6, seed));
-    for (int y = 0; y < 80; ++y) {
-      for (int x = 0; x < 96; ++x) {
-        exemplar.picture(x, y) = grey(exemplar.picture(x, y)[0] / 2 + add);
-        exemplar.guides.label(x, y) = (x / 24 + y / 20) % 2 == 0 ? own : 3;
-      }
+    for (const auto [x, y] : test::cells(96, 80)) {
+      exemplar.picture(x, y) = grey(exemplar.picture(x, y)[0] / 2 + add);
+      exemplar.guides.label(x, y) = (x / 24 + y / 20) % 2 == 0 ? own : 3;
     }
     exemplar.guides.guides.clear();
     return exemplar;
   };
   GuideStack target;
   target.label = Grid<std::uint8_t>(90, 70);
-  for (int y = 0; y < 70; ++y) {
-    for (int x = 0; x < 90; ++x)
-      target.label(x, y) = static_cast<std::uint8_t>(1 + (x / 15 + y / 14) % 3);
-  }
+  for (const auto [x, y] : test::cells(90, 70))
+    target.label(x, y) = static_cast<std::uint8_t>(1 + (x / 15 + y / 14) % 3);
   const auto seams = [&](const std::vector<Exemplar>& exemplars, const MatchField& field) {
     return measure_quality(field, exemplars, target, {.repeat_samples = 0}).seams;
   };

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/grids.h"
 #include "texture/segment/segment_figures.h"
 
 namespace belvedere {
@@ -18,13 +19,12 @@ int part(int x, int y) { return y < 60 ? 0 : (x < 80 + y / 8 ? 1 : 2); }
 Grid<glm::vec3> landscape(int width, int height) {
   const glm::vec3 colours[3] = {{.8F, -.02F, -.06F}, {.35F, -.03F, .03F}, {.65F, -.08F, .1F}};
   Grid<glm::vec3> out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const int p = part(x, y);
-      out(x, y) = colours[p];
-      out(x, y).x +=
-          (p == 0 ? .0003F : .0012F) * static_cast<float>(random_index(100, 3, x / 2, y / 2));
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const int p = part(x, y);
+    out(x, y) = colours[p];
+    out(x, y).x +=
+        (p == 0 ? .0003F : .0012F) * static_cast<float>(random_index(100, 3, x / 2, y / 2));
+  }
   return out;
 }
 
@@ -35,11 +35,10 @@ TEST(Segment, ThreeThingsAreThreeGroups) {
       join_pieces(segments.distance, segments.pixels, group_pieces(segments, usual_theta)), 3);
   Grid<std::uint16_t> found(200, 150);
   Grid<std::uint8_t> truth(200, 150);
-  for (int y = 0; y < 150; ++y)
-    for (int x = 0; x < 200; ++x) {
-      found(x, y) = groups[segments.pieces.of(x, y)];
-      truth(x, y) = static_cast<std::uint8_t>(part(x, y));
-    }
+  for (const auto [x, y] : test::cells(200, 150)) {
+    found(x, y) = groups[segments.pieces.of(x, y)];
+    truth(x, y) = static_cast<std::uint8_t>(part(x, y));
+  }
   EXPECT_GT(segment_agreement(found, truth).one_to_one, 0.97);
 }
 
@@ -92,15 +91,15 @@ TEST(Segment, EnlargedBordersFollowThePicture) {
   constexpr int side = 99;
   const auto dark = [](int x, int y) { return 2 * x + y < 150; };
   Grid<glm::vec3> picture(side, side);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) picture(x, y) = glm::vec3(dark(x, y) ? .2F : .8F);
+  for (const auto [x, y] : test::cells(side, side))
+    picture(x, y) = glm::vec3(dark(x, y) ? .2F : .8F);
   const Grid<glm::vec3> reduced = reduce_blocks(picture, 3);
   Grid<std::uint16_t> of(reduced.width(), reduced.height());
   for (std::size_t i = 0; i < of.size(); ++i) of[i] = reduced[i].x < .5F ? 7 : 4;
   const Grid<std::uint16_t> whole = enlarge_pieces(of, picture, 3);
   int wrong = 0;
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) wrong += whole(x, y) == (dark(x, y) ? 7 : 4) ? 0 : 1;
+  for (const auto [x, y] : test::cells(side, side))
+    wrong += whole(x, y) == (dark(x, y) ? 7 : 4) ? 0 : 1;
   EXPECT_LE(wrong, 6);
   EXPECT_EQ(enlarge_pieces(of, reduced, 1), of);
 }
@@ -177,11 +176,10 @@ struct Bands {
 Bands make_bands(const std::vector<glm::vec3>& colours) {
   const int width = 20 * static_cast<int>(colours.size());
   Bands out{Grid<glm::vec3>(width, 40), {Grid<std::uint16_t>(width, 40), colours.size()}};
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < width; ++x) {
-      out.picture(x, y) = colours[static_cast<std::size_t>(x / 20)];
-      out.pieces.of(x, y) = static_cast<std::uint16_t>(x / 20);
-    }
+  for (const auto [x, y] : test::cells(width, 40)) {
+    out.picture(x, y) = colours[static_cast<std::size_t>(x / 20)];
+    out.pieces.of(x, y) = static_cast<std::uint16_t>(x / 20);
+  }
   return out;
 }
 
@@ -215,10 +213,9 @@ TEST(PieceFeatures, PlaceCountsByItsGain) {
 TEST(PieceFeatures, TextureOfEqualColourTellsPiecesApartAndItsDirection) {
   Bands bands = make_bands(
       {glm::vec3(.5F, 0, 0), glm::vec3(.5F, 0, 0), glm::vec3(.5F, 0, 0), glm::vec3(.5F, 0, 0)});
-  for (int y = 0; y < 40; ++y)
-    for (int x = 20; x < 60; ++x)
-      bands.picture(x, y).x +=
-          (x < 40 ? y : x) / 2 % 2 == 0 ? .1F : -.1F;  // lines along rows, then columns
+  for (const auto [x, y] : test::cells({20, 0, 60, 40}))
+    bands.picture(x, y).x +=
+        (x < 40 ? y : x) / 2 % 2 == 0 ? .1F : -.1F;  // lines along rows, then columns
   PieceDistanceParameters parameters = plain;
   parameters.texture_gain = 1.0;
   parameters.lightness_gain = 0.0;

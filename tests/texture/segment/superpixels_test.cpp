@@ -3,10 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -15,20 +14,17 @@ namespace {
 int region(int x, int y) { return y < 30 + (x / 7) % 3 ? 0 : (x < 70 ? 1 : 2); }
 Grid<glm::vec3> flat_regions(int width, int height) {
   const glm::vec3 colours[3] = {{.8F, 0.F, -.1F}, {.4F, .1F, .1F}, {.4F, -.1F, .1F}};
-  Grid<glm::vec3> out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) out(x, y) = colours[region(x, y)];
-  return out;
+  return test::grid_of<glm::vec3>(width, height,
+                                  [&](int x, int y) { return colours[region(x, y)]; });
 }
 
 Grid<glm::vec3> noise(int width, int height) {
   Grid<glm::vec3> out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c)
-        out(x, y)[c] =
-            static_cast<float>(random_index(1000, static_cast<std::uint64_t>(c), x / 3, y / 3)) /
-            1000.F;
+  for (const auto [x, y] : test::cells(width, height))
+    for (int c = 0; c < 3; ++c)
+      out(x, y)[c] =
+          static_cast<float>(random_index(1000, static_cast<std::uint64_t>(c), x / 3, y / 3)) /
+          1000.F;
   return out;
 }
 
@@ -36,8 +32,8 @@ TEST(Superpixels, FlatRegionsAreFoundToThePixel) {
   const Grid<glm::vec3> picture = flat_regions(120, 90);
   const Superpixels found = find_superpixels(picture, {.count = 3, .cells = 300, .blur_px = 0.0});
   ASSERT_EQ(found.count, 3U);
-  for (int y = 0; y < 90; ++y)
-    for (int x = 0; x < 120; ++x) EXPECT_EQ(found.of(x, y), region(x, y)) << x << " " << y;
+  for (const auto [x, y] : test::cells(120, 90))
+    EXPECT_EQ(found.of(x, y), region(x, y)) << x << " " << y;
 }
 
 TEST(Superpixels, PiecesAreConnectedCountedAndInOrder) {
@@ -47,23 +43,21 @@ TEST(Superpixels, PiecesAreConnectedCountedAndInOrder) {
   Grid<int> met(90, 70, 0);
   std::size_t connected = 0;
   std::uint16_t next = 0;
-  for (int y = 0; y < 70; ++y)
-    for (int x = 0; x < 90; ++x) {
-      if (met(x, y) != 0) continue;
-      EXPECT_EQ(found.of(x, y), next++);
-      ++connected;
-      std::vector<std::pair<int, int>> open = {{x, y}};
-      while (!open.empty()) {
-        const auto [px, py] = open.back();
-        open.pop_back();
-        if (!met.contains(px, py) || met(px, py) != 0 || found.of(px, py) != found.of(x, y))
-          continue;
-        met(px, py) = 1;
-        for (const auto& [dx, dy] :
-             {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
-          open.emplace_back(px + dx, py + dy);
-      }
+  for (const auto [x, y] : test::cells(90, 70)) {
+    if (met(x, y) != 0) continue;
+    EXPECT_EQ(found.of(x, y), next++);
+    ++connected;
+    std::vector<std::pair<int, int>> open = {{x, y}};
+    while (!open.empty()) {
+      const auto [px, py] = open.back();
+      open.pop_back();
+      if (!met.contains(px, py) || met(px, py) != 0 || found.of(px, py) != found.of(x, y)) continue;
+      met(px, py) = 1;
+      for (const auto& [dx, dy] :
+           {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
+        open.emplace_back(px + dx, py + dy);
     }
+  }
   EXPECT_EQ(connected, found.count);
 }
 

@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 
 namespace belvedere {
@@ -117,8 +117,7 @@ Picture make_sheet(int width_units, int height_units, double pixels_per_unit) {
 template <class T>
 Grid<T> cut(const Grid<T>& grid, const PixelRect& rect) {
   Grid<T> part(rect.width(), rect.height());
-  for (int y = 0; y < rect.height(); ++y)
-    for (int x = 0; x < rect.width(); ++x) part(x, y) = grid(rect.x0 + x, rect.y0 + y);
+  for (const auto [x, y] : test::cells(rect)) part(x, y) = grid(rect.x0 + x, rect.y0 + y);
   return part;
 }
 
@@ -197,20 +196,19 @@ int count_differences(const Painting& whole, const Painting& window, const Part&
     return glm::ivec2(static_cast<int>(i) % width, static_cast<int>(i) / width);
   };
   const glm::ivec2 origin = part.window.origin_px;
-  for (int y = part.inner.y0; y < part.inner.y1; ++y)
-    for (int x = part.inner.x0; x < part.inner.x1; ++x) {
-      const std::size_t a = whole.picture.index(x, y);
-      const std::size_t b = window.picture.index(x - origin.x, y - origin.y);
-      const glm::ivec2 source = position(whole.sources[a], whole.picture.width());
-      const glm::ivec2 under = position(whole.under[a], whole.picture.width());
-      const bool same = whole.picture[a] == window.picture[b] &&
-                        whole.under_share[a] == window.under_share[b] &&
-                        source == origin + position(window.sources[b], window.picture.width()) &&
-                        under == origin + position(window.under[b], window.picture.width());
-      different += same ? 0 : 1;
-      for (const glm::ivec2 from : {source, under})
-        farthest_px = std::max({farthest_px, std::abs(from.x - x), std::abs(from.y - y)});
-    }
+  for (const auto [x, y] : test::cells(part.inner)) {
+    const std::size_t a = whole.picture.index(x, y);
+    const std::size_t b = window.picture.index(x - origin.x, y - origin.y);
+    const glm::ivec2 source = position(whole.sources[a], whole.picture.width());
+    const glm::ivec2 under = position(whole.under[a], whole.picture.width());
+    const bool same = whole.picture[a] == window.picture[b] &&
+                      whole.under_share[a] == window.under_share[b] &&
+                      source == origin + position(window.sources[b], window.picture.width()) &&
+                      under == origin + position(window.under[b], window.picture.width());
+    different += same ? 0 : 1;
+    for (const glm::ivec2 from : {source, under})
+      farthest_px = std::max({farthest_px, std::abs(from.x - x), std::abs(from.y - y)});
+  }
   return different;
 }
 
@@ -325,11 +323,10 @@ TEST(SheetWindow, AskedPixelsAloneArePainted) {
       paint_strokes(p.ground.colour, p.guidance, p.ground, {}, p.parameters, silent_progress());
   const Painting part = paint_strokes(p.ground.colour, p.guidance, p.ground, {}, p.parameters,
                                       silent_progress(), window);
-  for (int y = 0; y < 400; ++y)
-    for (int x = 0; x < 170; ++x) {
-      const bool is_asked = x >= 40 && x < 71 && y >= 60 && y < 200;
-      ASSERT_EQ(part.picture(x, y), is_asked ? whole.picture(x, y) : p.ground.colour(x, y));
-    }
+  for (const auto [x, y] : test::cells(170, 400)) {
+    const bool is_asked = x >= 40 && x < 71 && y >= 60 && y < 200;
+    ASSERT_EQ(part.picture(x, y), is_asked ? whole.picture(x, y) : p.ground.colour(x, y));
+  }
   EXPECT_LT(part.stroke_count, whole.stroke_count);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -44,9 +45,8 @@ Grid<glm::vec3> paint(const std::vector<Stroke>& strokes, const GuidanceBuffers&
 // Pasture left of x = 30, rock right of it, and water in row 20 from x = 40 on.
 GuidanceBuffers border_guidance() {
   GuidanceBuffers g = flat_guidance();
-  for (int y = 0; y < g.height(); ++y)
-    for (int x = 30; x < g.width(); ++x)
-      g.land_cover(x, y) = y == 20 && x >= 40 ? LandCoverClass::water : LandCoverClass::rock;
+  for (const auto [x, y] : test::cells({30, 0, g.width(), g.height()}))
+    g.land_cover(x, y) = y == 20 && x >= 40 ? LandCoverClass::water : LandCoverClass::rock;
   return g;
 }
 
@@ -183,8 +183,7 @@ TEST(Brush, AHairlineKeepsItsAreaNotItsWidth) {
 
 TEST(Brush, StaysOnItsOwnSurface) {
   GuidanceBuffers g = flat_guidance();
-  for (int y = 0; y < g.height(); ++y)
-    for (int x = 30; x < g.width(); ++x) g.depth_m(x, y) = 1100.F;
+  for (const auto [x, y] : test::cells({30, 0, g.width(), g.height()})) g.depth_m(x, y) = 1100.F;
   const auto canvas = paint({horizontal_stroke()}, g);
   EXPECT_FLOAT_EQ(canvas(20, 20).x, 1.F);
   EXPECT_FLOAT_EQ(canvas(40, 20).x, 0.F);
@@ -253,16 +252,14 @@ TEST(Brush, BanksKeepOffWaterThatAMapKnows) {
 
 TEST(Brush, ToneGateFadesWithTheDifferenceOfTone) {
   GuidanceBuffers g = flat_guidance();
-  for (int y = 0; y < g.height(); ++y)
-    for (int x = 30; x < g.width(); ++x) g.tone(x, y) = 0.5F + 0.16F;
+  for (const auto [x, y] : test::cells({30, 0, g.width(), g.height()})) g.tone(x, y) = 0.5F + 0.16F;
   Stroke s = horizontal_stroke();
   s.tone = 0.5F;
   const auto canvas = paint({s}, g);
   EXPECT_FLOAT_EQ(canvas(20, 20).x, 1.F);
   EXPECT_NEAR(canvas(40, 20).x, std::exp(-1.0), 0.03);
   // Flat on top, so that paint ends at a shadow with an edge: exp(-x⁴), not exp(-x²).
-  for (int y = 0; y < g.height(); ++y)
-    for (int x = 30; x < g.width(); ++x) g.tone(x, y) = 0.5F - 0.08F;
+  for (const auto [x, y] : test::cells({30, 0, g.width(), g.height()})) g.tone(x, y) = 0.5F - 0.08F;
   EXPECT_NEAR(paint({s}, g)(40, 20).x, std::exp(-0.0625), 0.01);
 }
 
@@ -392,11 +389,10 @@ TEST(Brush, HairsDrawStreaksAlongTheStroke) {
   const auto canvas = large_stroke(brush_stroke());
   double along = 0.0;
   double across = 0.0;
-  for (int y = 106; y < 134; ++y)
-    for (int x = 120; x < 180; ++x) {
-      along += std::abs(canvas(x + 1, y).x - canvas(x, y).x);
-      across += std::abs(canvas(x, y + 1).x - canvas(x, y).x);
-    }
+  for (const auto [x, y] : test::cells({120, 106, 180, 134})) {
+    along += std::abs(canvas(x + 1, y).x - canvas(x, y).x);
+    across += std::abs(canvas(x, y + 1).x - canvas(x, y).x);
+  }
   EXPECT_GT(across, 10.0 * along);
   EXPECT_GT(across / (28.0 * 60.0), 0.02);  // and they are visible
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -28,15 +29,13 @@ TEST(PaintParts, SumsMakeThePaintingInAnyOrderOfParts) {
       parts.cover(x, v, part, alpha, colour);
     }
   }
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x) {
-      glm::vec4 sum(0.0F);
-      for (std::size_t k = 0; k < paint_part_count; ++k)
-        sum += parts.sum(static_cast<PaintPart>(k))(x - rect.x0, y - rect.y0);
-      for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(sum[c] + (1.0F - sum.w) * bare(x, y)[c], canvas(x, y)[c], 1e-5F)
-            << x << " " << y;
-    }
+  for (const auto [x, y] : test::cells(rect)) {
+    glm::vec4 sum(0.0F);
+    for (std::size_t k = 0; k < paint_part_count; ++k)
+      sum += parts.sum(static_cast<PaintPart>(k))(x - rect.x0, y - rect.y0);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(sum[c] + (1.0F - sum.w) * bare(x, y)[c], canvas(x, y)[c], 1e-5F) << x << " " << y;
+  }
 }
 
 // Thinning mixes the parts with their earlier state.

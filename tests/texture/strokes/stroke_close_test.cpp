@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 
 // Strokes for close views only: stones and tufts.
@@ -18,13 +19,12 @@ Picture ground_of(LandCoverClass id, double metres, int px, double unit_m) {
   Picture p = plain_picture(id, px, px);
   const double pixel_m = metres / px;
   p.parameters.pixels_per_unit = unit_m / pixel_m;
-  for (int y = 0; y < px; ++y)
-    for (int x = 0; x < px; ++x) {
-      const std::size_t i = p.guidance.depth_m.index(x, y);
-      p.guidance.depth_m[i] = 500.F;
-      p.guidance.footprint_m[i] = static_cast<float>(pixel_m);
-      p.guidance.position_m[i] = glm::vec3(pixel_m * (x + 0.5), -pixel_m * (y + 0.5), 900.0);
-    }
+  for (const auto [x, y] : test::cells(px, px)) {
+    const std::size_t i = p.guidance.depth_m.index(x, y);
+    p.guidance.depth_m[i] = 500.F;
+    p.guidance.footprint_m[i] = static_cast<float>(pixel_m);
+    p.guidance.position_m[i] = glm::vec3(pixel_m * (x + 0.5), -pixel_m * (y + 0.5), 900.0);
+  }
   return p;
 }
 
@@ -88,8 +88,8 @@ TEST(CloseViews, SoManyStonesASquareMetreAtAnyResolution) {
 // Blocks lie where debris ends, and on the grass below it, not up the slope.
 TEST(CloseViews, BlocksLieAtTheFootOfDebris) {
   Picture p = ground_of(scree, 2400.0, 240, 10.0);
-  for (int y = 120; y < 240; ++y)
-    for (int x = 0; x < 240; ++x) p.guidance.land_cover(x, y) = alpine_grass;
+  for (const auto [x, y] : test::cells({0, 120, 240, 240}))
+    p.guidance.land_cover(x, y) = alpine_grass;
   int foot = 0, above = 0, meadow = 0;
   over_seeds(p, [&] {
     for (const Stroke& stroke : grow_strokes("stones", p.scene())) {
@@ -144,8 +144,7 @@ TEST(CloseViews, AWindowIsPaintedAsTheWhole) {
                        std::min(300, wanted.x1 + margin), std::min(300, wanted.y1 + margin)};
   const auto cut = [&](const auto& grid) {
     std::decay_t<decltype(grid)> part(held.width(), held.height());
-    for (int y = 0; y < held.height(); ++y)
-      for (int x = 0; x < held.width(); ++x) part(x, y) = grid(held.x0 + x, held.y0 + y);
+    for (const auto [x, y] : test::cells(held)) part(x, y) = grid(held.x0 + x, held.y0 + y);
     return part;
   };
   Picture w = p;
@@ -170,9 +169,8 @@ TEST(CloseViews, AWindowIsPaintedAsTheWhole) {
   const Painting part =
       paint_strokes(w.ground.colour, w.guidance, w.ground, layers, w.parameters, silent_progress(),
                     {.origin_px = {held.x0, held.y0}, .sheet_px = {300, 300}, .asked = inside});
-  for (int y = wanted.y0; y < wanted.y1; ++y)
-    for (int x = wanted.x0; x < wanted.x1; ++x)
-      ASSERT_EQ(part.picture(x - held.x0, y - held.y0), whole.picture(x, y)) << x << ", " << y;
+  for (const auto [x, y] : test::cells(wanted))
+    ASSERT_EQ(part.picture(x - held.x0, y - held.y0), whole.picture(x, y)) << x << ", " << y;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 
 namespace belvedere {
@@ -8,10 +9,9 @@ namespace {
 Picture sand_of(float slope_deg) {
   Picture p = plain_picture(LandCoverClass::sand, 320, 240);
   p.guidance.depth_m = Grid<float>(320, 240, 9000.F);
-  for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 320; ++x)
-      p.guidance.position_m(x, y) =
-          glm::vec3(12.F * static_cast<float>(x), -12.F * static_cast<float>(y), 40.F);
+  for (const auto [x, y] : test::cells(320, 240))
+    p.guidance.position_m(x, y) =
+        glm::vec3(12.F * static_cast<float>(x), -12.F * static_cast<float>(y), 40.F);
   p.guidance.slope_deg = Grid<float>(320, 240, slope_deg);
   for (glm::vec2& d : p.guidance.fall_line) d = {0.8F, 0.6F};
   return p;

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 
 namespace belvedere {
@@ -26,14 +27,13 @@ using enum LandCoverClass;
 // down, tone .6.
 Picture one_class(LandCoverClass id, int width = 320, int height = 240) {
   Picture p = plain_picture(id, width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      p.guidance.depth_m(x, y) =
-          id == sky ? std::numeric_limits<float>::infinity()
-                    : 60000.F - 40000.F * static_cast<float>(y) / static_cast<float>(height);
-      p.guidance.position_m(x, y) =
-          glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 900.F);
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    p.guidance.depth_m(x, y) =
+        id == sky ? std::numeric_limits<float>::infinity()
+                  : 60000.F - 40000.F * static_cast<float>(y) / static_cast<float>(height);
+    p.guidance.position_m(x, y) =
+        glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 900.F);
+  }
   return p;
 }
 
@@ -167,13 +167,12 @@ TEST(StrokePainter, DarkerStrokesAreMixedIn) {
 // centre.
 Picture town(float radius) {
   Picture p = one_class(valley_floor, 320, 240);
-  for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 320; ++x)
-      if (const float r = std::hypot(static_cast<float>(x) - 160.F, static_cast<float>(y) - 120.F);
-          r < radius) {
-        p.guidance.land_cover(x, y) = settlement;
-        p.guidance.built(x, y) = std::min(1.F, radius / 80.F) * (1.F - 0.7F * r / radius);
-      }
+  for (const auto [x, y] : test::cells(320, 240))
+    if (const float r = std::hypot(static_cast<float>(x) - 160.F, static_cast<float>(y) - 120.F);
+        r < radius) {
+      p.guidance.land_cover(x, y) = settlement;
+      p.guidance.built(x, y) = std::min(1.F, radius / 80.F) * (1.F - 0.7F * r / radius);
+    }
   p.guidance.footprint_m = Grid<float>(320, 240, 15.F);
   return p;
 }
@@ -211,8 +210,8 @@ TEST(StrokePainter, TownsAreDenserInTheirMiddle) {
 TEST(StrokePainter, TheSkyIsDrawnOutLevel) {
   Picture p = one_class(sky);
   // A cloud in the right half: there the brush dabs, still level.
-  for (int y = 80; y < 160; ++y)
-    for (int x = 200; x < 280; ++x) p.ground.colour(x, y) = glm::vec3(0.9F);
+  for (const auto [x, y] : test::cells({200, 80, 280, 160}))
+    p.ground.colour(x, y) = glm::vec3(0.9F);
   const StrokeParameters parameters;
   double clear = 0.0, dabbed = 0.0;
   int clear_count = 0, dab_count = 0;
@@ -450,9 +449,9 @@ TEST(StrokePainter, AirEvensOutWhatLoadsOfPaintDifferBy) {
 
 TEST(StrokePainter, ThreadsChangeNoBit) {
   Picture p = one_class(forest);
-  for (int y = 0; y < p.guidance.height(); ++y)
-    for (int x = p.guidance.width() / 2; x < p.guidance.width(); ++x)
-      p.guidance.land_cover(x, y) = rock;
+  for (const auto [x, y] :
+       test::cells({p.guidance.width() / 2, 0, p.guidance.width(), p.guidance.height()}))
+    p.guidance.land_cover(x, y) = rock;
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     return paint_strokes(p.ground.colour, p.guidance, p.ground, {}, {}, silent_progress());
@@ -551,9 +550,8 @@ TEST(FarStrokes, TreesAreFewerTheFartherAndAsTall) {
   Picture p = plain_picture(LandCoverClass::forest, 480, bands * band_px);
   p.guidance.depth_m = Grid<float>(480, bands * band_px, 8000.F);
   const std::vector<Stroke> grown = grow_strokes("forest trees", p.scene());
-  for (int y = 0; y < bands * band_px; ++y)
-    for (int x = 0; x < 480; ++x)
-      p.ground.haze(x, y) = 0.28F + 0.14F * static_cast<float>(bands - 1 - y / band_px);
+  for (const auto [x, y] : test::cells(480, bands * band_px))
+    p.ground.haze(x, y) = 0.28F + 0.14F * static_cast<float>(bands - 1 - y / band_px);
   struct Extent {
     float top = 1e9F;
     float bottom = -1e9F;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 #include "texture/strokes/brush.h"
 #include "texture/strokes/stroke_painter.h"
@@ -23,20 +24,18 @@ Picture falling_slope(LandCoverClass id) {
   GuidanceBuffers& g = p.guidance;
   g.footprint_m = Grid<float>(rock_width, rock_height, 12.F);
   g.relief_s_m = Grid<float>(rock_width, rock_height, 0.F);
-  for (int y = 0; y < rock_height; ++y)
-    for (int x = 0; x < rock_width; ++x) {
-      g.depth_m(x, y) = 30000.F - 10.F * static_cast<float>(y);
-      g.position_m(x, y) = glm::vec3(12.F * static_cast<float>(x), -10.F * static_cast<float>(y),
-                                     2600.F - 7.F * static_cast<float>(y));
-    }
+  for (const auto [x, y] : test::cells(rock_width, rock_height)) {
+    g.depth_m(x, y) = 30000.F - 10.F * static_cast<float>(y);
+    g.position_m(x, y) = glm::vec3(12.F * static_cast<float>(x), -10.F * static_cast<float>(y),
+                                   2600.F - 7.F * static_cast<float>(y));
+  }
   return p;
 }
 
 // `upper` above row `border`, `lower` below it.
 Picture two_bands(LandCoverClass upper, LandCoverClass lower, int border = rock_height / 2) {
   Picture p = falling_slope(lower);
-  for (int y = 0; y < border; ++y)
-    for (int x = 0; x < rock_width; ++x) p.guidance.land_cover(x, y) = upper;
+  for (const auto [x, y] : test::cells(rock_width, border)) p.guidance.land_cover(x, y) = upper;
   return p;
 }
 
@@ -44,8 +43,8 @@ Picture two_bands(LandCoverClass upper, LandCoverClass lower, int border = rock_
 Picture two_planes() {
   Picture p = falling_slope(rock);
   p.guidance.rock_facet = Grid<std::uint32_t>(rock_width, rock_height, 0x00010001U);
-  for (int y = 0; y < rock_height; ++y)
-    for (int x = rock_width / 2; x < rock_width; ++x) p.guidance.rock_facet(x, y) = 0x00010002U;
+  for (const auto [x, y] : test::cells({rock_width / 2, 0, rock_width, rock_height}))
+    p.guidance.rock_facet(x, y) = 0x00010002U;
   return p;
 }
 
@@ -210,16 +209,15 @@ TEST(StrokeRock, TreesBeforeASlopeStayWhole) {
   const Painting accented = paint(true);
   int before_slope = 0;
   int whole = 0;
-  for (int y = rock_height / 2 - 8; y < rock_height / 2; ++y)
-    for (int x = 0; x < rock_width; ++x) {
-      if (p.guidance.land_cover[plain.sources(x, y)] != forest || plain.under_share(x, y) > 50)
-        continue;
-      ++before_slope;
-      whole +=
-          p.guidance.land_cover[accented.sources(x, y)] == forest && accented.under_share(x, y) < 70
-              ? 1
-              : 0;
-    }
+  for (const auto [x, y] : test::cells({0, rock_height / 2 - 8, rock_width, rock_height / 2})) {
+    if (p.guidance.land_cover[plain.sources(x, y)] != forest || plain.under_share(x, y) > 50)
+      continue;
+    ++before_slope;
+    whole +=
+        p.guidance.land_cover[accented.sources(x, y)] == forest && accented.under_share(x, y) < 70
+            ? 1
+            : 0;
+  }
   EXPECT_GT(before_slope, 40);
   EXPECT_GT(whole, before_slope * 4 / 5);
 }

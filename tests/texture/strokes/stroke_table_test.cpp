@@ -7,10 +7,10 @@
 #include <map>
 #include <set>
 #include <string_view>
-#include <vector>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 #include "texture/strokes/stroke_painter.h"
 
@@ -31,36 +31,35 @@ Picture patchwork() {
   p.guidance.built = Grid<float>(table_width, table_height, 0.6F);
   p.ground.accent = Grid<float>(table_width, table_height, -0.8F);
   const auto& classes = land_cover_classes();
-  for (int y = 0; y < table_height; ++y)
-    for (int x = 0; x < table_width; ++x) {
-      const int row = y / block;
-      const int column = x / (2 * block);
-      const auto drawn = random_index(static_cast<std::uint32_t>(classes.size()), 3, column, row);
-      LandCoverClass id = classes[drawn].id;
-      // Kinds that need certain neighbours do not depend on chance here: forest above pastures,
-      // towns large enough for a church.
-      if (column == 2)
-        id = row % 6 == 0   ? LandCoverClass::forest
-             : row % 6 == 1 ? LandCoverClass::pasture
-                            : LandCoverClass::settlement;
-      if (column < 2) id = row % 6 < 3 ? LandCoverClass::glacier : LandCoverClass::snow;
-      if (column == 0 && row % 3 == 0 && x > 28 && x < 37)
-        id = LandCoverClass::rock;  // a rib above a stretch of ice
-      p.guidance.land_cover(x, y) = id;
-      p.guidance.slope_deg(x, y) = column == 1 ? 42.F : row % 2 == 0 ? 5.F : 20.F;
-      p.guidance.depth_m(x, y) =
-          id == LandCoverClass::sky ? std::numeric_limits<float>::infinity() : 8000.F;
+  for (const auto [x, y] : test::cells(table_width, table_height)) {
+    const int row = y / block;
+    const int column = x / (2 * block);
+    const auto drawn = random_index(static_cast<std::uint32_t>(classes.size()), 3, column, row);
+    LandCoverClass id = classes[drawn].id;
+    // Kinds that need certain neighbours do not depend on chance here: forest above pastures,
+    // towns large enough for a church.
+    if (column == 2)
+      id = row % 6 == 0   ? LandCoverClass::forest
+           : row % 6 == 1 ? LandCoverClass::pasture
+                          : LandCoverClass::settlement;
+    if (column < 2) id = row % 6 < 3 ? LandCoverClass::glacier : LandCoverClass::snow;
+    if (column == 0 && row % 3 == 0 && x > 28 && x < 37)
+      id = LandCoverClass::rock;  // a rib above a stretch of ice
+    p.guidance.land_cover(x, y) = id;
+    p.guidance.slope_deg(x, y) = column == 1 ? 42.F : row % 2 == 0 ? 5.F : 20.F;
+    p.guidance.depth_m(x, y) =
+        id == LandCoverClass::sky ? std::numeric_limits<float>::infinity() : 8000.F;
+    p.guidance.position_m(x, y) =
+        glm::vec3(12.F * static_cast<float>(x), -12.F * static_cast<float>(y), 900.F);
+    if (id == LandCoverClass::water && row % 2 == 1)
+      p.guidance.position_m(x, y).z -= 6.F * static_cast<float>(y % block);
+    if (row == 11) {  // the foreground, in close view
+      p.guidance.footprint_m(x, y) = 0.4F;
       p.guidance.position_m(x, y) =
-          glm::vec3(12.F * static_cast<float>(x), -12.F * static_cast<float>(y), 900.F);
-      if (id == LandCoverClass::water && row % 2 == 1)
-        p.guidance.position_m(x, y).z -= 6.F * static_cast<float>(y % block);
-      if (row == 11) {  // the foreground, in close view
-        p.guidance.footprint_m(x, y) = 0.4F;
-        p.guidance.position_m(x, y) =
-            glm::vec3(0.4F * static_cast<float>(x), -1.2F * static_cast<float>(y), 900.F);
-      }
-      p.ground.tree_density(x, y) = x % (2 * block) < block ? 0.95F : 0.02F;
+          glm::vec3(0.4F * static_cast<float>(x), -1.2F * static_cast<float>(y), 900.F);
     }
+    p.ground.tree_density(x, y) = x % (2 * block) < block ? 0.95F : 0.02F;
+  }
   return p;
 }
 

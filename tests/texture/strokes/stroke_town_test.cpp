@@ -5,6 +5,7 @@
 #include <complex>
 #include <optional>
 
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 
 namespace belvedere {
@@ -21,10 +22,9 @@ Picture level(LandCoverClass id, int width = 240, int height = 200) {
   p.guidance.slope_deg = Grid<float>(width, height, 1.F);
   p.guidance.built = Grid<float>(width, height, 0.6F);
   p.guidance.grain = Grid<glm::vec2>(width, height, glm::vec2(1.F, 0.F));
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      p.guidance.position_m(x, y) =
-          glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), 900.F);
+  for (const auto [x, y] : test::cells(width, height))
+    p.guidance.position_m(x, y) =
+        glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), 900.F);
   p.ground.darker = p.ground.lighter = p.ground.colour;
   p.ground.tree_density = Grid<float>(width, height, 0.F);
   return p;
@@ -94,9 +94,8 @@ TEST(Towns, AreNoChessboards) {
 TEST(Towns, HaveNoTwoHousesOnOnePlot) {
   const StrokeParameters parameters;
   Picture p = level(settlement);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 240; ++x)
-      p.guidance.built(x, y) = 0.45F - 0.0005F * std::hypot(x - 120.F, y - 100.F);  // one church
+  for (const auto [x, y] : test::cells(240, 200))
+    p.guidance.built(x, y) = 0.45F - 0.0005F * std::hypot(x - 120.F, y - 100.F);  // one church
   std::vector<glm::vec2> feet;
   for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
     if (is_wall(s)) feet.push_back(0.5F * (s.points[0] + s.points[1]));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 
 namespace belvedere {
@@ -16,13 +17,11 @@ Picture lake_picture(float altitude_m = 900.F, float footprint_m = 14.F) {
   p.guidance.depth_m = Grid<float>(lake_width, lake_height, 9000.F);
   p.guidance.footprint_m = Grid<float>(lake_width, lake_height, footprint_m);
   p.guidance.slope_deg = Grid<float>(lake_width, lake_height, 0.F);
-  for (int y = 0; y < lake_height; ++y)
-    for (int x = 0; x < lake_width; ++x) {
-      p.guidance.position_m(x, y) =
-          glm::vec3(footprint_m * static_cast<float>(x), -3.F * footprint_m * static_cast<float>(y),
-                    altitude_m);
-      if (y < 60) p.guidance.land_cover(x, y) = LandCoverClass::pasture;
-    }
+  for (const auto [x, y] : test::cells(lake_width, lake_height)) {
+    p.guidance.position_m(x, y) = glm::vec3(footprint_m * static_cast<float>(x),
+                                            -3.F * footprint_m * static_cast<float>(y), altitude_m);
+    if (y < 60) p.guidance.land_cover(x, y) = LandCoverClass::pasture;
+  }
   p.parameters.wind = 1.0;
   p.parameters.foam = true;
   p.parameters.surf_units = 1.0;
@@ -61,9 +60,8 @@ TEST(WaterStrokes, CalmFrozenAndNarrowWaterHasNoStreaks) {
   p.parameters.frozen_from_m = 800.0;
   EXPECT_TRUE(grow_strokes("wind streaks", p.scene()).empty());
   Picture brook = lake_picture();
-  for (int y = 0; y < lake_height; ++y)
-    for (int x = 0; x < lake_width; ++x)
-      if (y < 100 || y > 104) brook.guidance.land_cover(x, y) = LandCoverClass::pasture;
+  for (const auto [x, y] : test::cells(lake_width, lake_height))
+    if (y < 100 || y > 104) brook.guidance.land_cover(x, y) = LandCoverClass::pasture;
   EXPECT_TRUE(grow_strokes("wind streaks", brook.scene()).empty());
 }
 
@@ -86,14 +84,12 @@ TEST(WaterStrokes, FallsAreWhiteAndRunDown) {
 // Coarse cells extend a lake up its bank: rows 60 to 70 here, over level water.
 TEST(WaterStrokes, TheBankOfALakeIsNoFall) {
   Picture lake = lake_picture();
-  for (int y = 60; y < 70; ++y)
-    for (int x = 0; x < lake_width; ++x)
-      lake.guidance.position_m(x, y).z += 25.F * static_cast<float>(70 - y);
+  for (const auto [x, y] : test::cells({0, 60, lake_width, 70}))
+    lake.guidance.position_m(x, y).z += 25.F * static_cast<float>(70 - y);
   EXPECT_TRUE(grow_strokes("river foam", lake.scene()).empty());
   // The same water as a river, which continues to fall.
-  for (int y = 70; y < lake_height; ++y)
-    for (int x = 0; x < lake_width; ++x)
-      lake.guidance.position_m(x, y).z -= 25.F * static_cast<float>(y - 70);
+  for (const auto [x, y] : test::cells({0, 70, lake_width, lake_height}))
+    lake.guidance.position_m(x, y).z -= 25.F * static_cast<float>(y - 70);
   EXPECT_GT(grow_strokes("river foam", lake.scene()).size(), 1000U);
 }
 
@@ -115,14 +111,13 @@ TEST(WaterStrokes, IceIsPaintedInShorterStrokesThanWater) {
 TEST(WaterStrokes, ABrookIsWhiteAlongItsOwnWayOverAWall) {
   Picture p = lake_picture();
   std::size_t wet = 0;
-  for (int y = 0; y < lake_height; ++y)
-    for (int x = 0; x < lake_width; ++x) {
-      const bool brook = std::abs(x - y - 40) < 2;
-      p.guidance.land_cover(x, y) = brook ? LandCoverClass::water : LandCoverClass::rock;
-      p.guidance.position_m(x, y) = {14.F * static_cast<float>(x), -14.F * static_cast<float>(y),
-                                     900.F - 14.F * static_cast<float>(y)};
-      wet += brook ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(lake_width, lake_height)) {
+    const bool brook = std::abs(x - y - 40) < 2;
+    p.guidance.land_cover(x, y) = brook ? LandCoverClass::water : LandCoverClass::rock;
+    p.guidance.position_m(x, y) = {14.F * static_cast<float>(x), -14.F * static_cast<float>(y),
+                                   900.F - 14.F * static_cast<float>(y)};
+    wet += brook ? 1 : 0;
+  }
   const std::vector<Stroke> foam = grow_strokes("river foam", p.scene());
   double painted = 0.0;
   std::size_t down_the_wall = 0;
@@ -162,8 +157,7 @@ TEST(WaterStrokes, SurfRunsAlongTheSeaInABrokenLine) {
 // A hill in front of the sea has no surf along its crest.
 TEST(WaterStrokes, WhatStandsBeforeTheSeaIsNoShore) {
   Picture p = lake_picture(0.4F);
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < lake_width; ++x) p.guidance.depth_m(x, y) = 4000.F;
+  for (const auto [x, y] : test::cells(lake_width, 60)) p.guidance.depth_m(x, y) = 4000.F;
   EXPECT_TRUE(grow_strokes("sea surf", p.scene()).empty());
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/progress.h"
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 #include "texture/strokes/stroke_painter.h"
 #include "texture/strokes/stroke_parts.h"
@@ -25,17 +26,15 @@ Picture level_ground(LandCoverClass id, float altitude_m = 1700.F) {
   Picture p = plain_picture(id, wood_width, wood_height);
   p.guidance.depth_m = Grid<float>(wood_width, wood_height, 20000.F);
   p.guidance.relief_s_m = Grid<float>(wood_width, wood_height, 0.F);
-  for (int y = 0; y < wood_height; ++y)
-    for (int x = 0; x < wood_width; ++x)
-      p.guidance.position_m(x, y) =
-          glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), altitude_m);
+  for (const auto [x, y] : test::cells(wood_width, wood_height))
+    p.guidance.position_m(x, y) =
+        glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), altitude_m);
   return p;
 }
 
 template <class T>
 void fill(Grid<T>& grid, int x0, int y0, int x1, int y1, T value) {
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) grid(x, y) = value;
+  for (const auto [x, y] : test::cells({x0, y0, x1, y1})) grid(x, y) = value;
 }
 
 bool is_body(const Stroke& s) {
@@ -443,12 +442,11 @@ TEST(Ground, NoWindowIsFlat) {
       for (int x0 = 8; x0 + 8 <= wood_width - 8; x0 += 8, ++windows) {
         double sum = 0.0;
         double squares = 0.0;
-        for (int y = y0; y < y0 + 8; ++y)
-          for (int x = x0; x < x0 + 8; ++x) {
-            const double l = luma(picture(x, y));
-            sum += l;
-            squares += l * l;
-          }
+        for (const auto [x, y] : test::cells({x0, y0, x0 + 8, y0 + 8})) {
+          const double l = luma(picture(x, y));
+          sum += l;
+          squares += l * l;
+        }
         flat += squares / 64.0 - sum * sum / 4096.0 < 0.006 * 0.006;
       }
     EXPECT_LT(flat, windows / 50) << class_name(id);

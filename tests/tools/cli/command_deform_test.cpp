@@ -9,6 +9,7 @@
 
 #include "renderer/image/image_io.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -26,9 +27,8 @@ class DeformCommand : public Program {
     raster.transform = {680000.0, 5260000.0, 100.0, 100.0};
     raster.crs = normalize_crs("EPSG:32632");
     raster.cells = Grid<float>(80, 60);
-    for (int y = 0; y < 60; ++y)
-      for (int x = 0; x < 80; ++x)
-        raster.cells(x, y) = static_cast<float>(1000.0 - 10.0 * std::hypot(x - 40, 2.0 * (y - 30)));
+    for (const auto [x, y] : test::cells(80, 60))
+      raster.cells(x, y) = static_cast<float>(1000.0 - 10.0 * std::hypot(x - 40, 2.0 * (y - 30)));
     raster.cells(5, 5) = std::nanf("");
     write_raster(path("cone.tif"), raster);
     return path("cone.tif");

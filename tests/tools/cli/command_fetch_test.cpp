@@ -8,6 +8,7 @@
 
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/http_server.h"
 #include "tests/tools/cli/new/two_bands.h"
 #include "tests/tools/program.h"
@@ -28,12 +29,10 @@ class FetchProgram : public Program {
     Raster<float> dem{
         Grid<float>(side, side), {11.0, 48.0, cell, cell}, normalize_crs("EPSG:4326")};
     Raster<std::uint8_t> cover{Grid<std::uint8_t>(side, side), dem.transform, dem.crs};
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
-        dem.cells(x, y) =
-            static_cast<float>(1200.0 + 600.0 * std::sin(0.1 * x) * std::cos(0.08 * y));
-        cover.cells(x, y) = dem.cells(x, y) > 1300.0F ? 60 : 10;
-      }
+    for (const auto [x, y] : test::cells(side, side)) {
+      dem.cells(x, y) = static_cast<float>(1200.0 + 600.0 * std::sin(0.1 * x) * std::cos(0.08 * y));
+      cover.cells(x, y) = dem.cells(x, y) > 1300.0F ? 60 : 10;
+    }
     std::filesystem::create_directories(path("served"));
     write_raster(path("served/N47E011.tif"), dem);
     write_raster(path("served/cover_N47E011.tif"), cover);

@@ -12,6 +12,7 @@
 #include "terrain/generalize/generalize.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 #include "tests/tools/program.h"
 
@@ -35,10 +36,9 @@ class GeneralizeCommand : public Program {
                                           : GeoTransform{680000.0, 5260000.0, cell, cell};
     raster.crs = normalize_crs(crs);
     raster.cells = Grid<float>(70, 53);
-    for (int y = 0; y < 53; ++y)
-      for (int x = 0; x < 70; ++x)
-        raster.cells(x, y) = static_cast<float>(1000.1 + 12.3 * x - 7.7 * y +
-                                                40.0 * std::sin(x * 1.7) * std::cos(y * 1.1));
+    for (const auto [x, y] : test::cells(70, 53))
+      raster.cells(x, y) = static_cast<float>(1000.1 + 12.3 * x - 7.7 * y +
+                                              40.0 * std::sin(x * 1.7) * std::cos(y * 1.1));
     return raster;
   }
   // With a void at (5, 5).
@@ -162,8 +162,7 @@ TEST_F(GeneralizeCommand, BreakLinesAreThoseOfTheLibrary) {
 TEST_F(GeneralizeCommand, AMaskKeepsWhatItCovers) {
   write_raster(path("in.tif"), hills());
   Raster<float> mask = hills();
-  for (int y = 0; y < 53; ++y)
-    for (int x = 0; x < 70; ++x) mask.cells(x, y) = x < 35 ? 0.F : 255.F;
+  for (const auto [x, y] : test::cells(70, 53)) mask.cells(x, y) = x < 35 ? 0.F : 255.F;
   write_raster(path("mask.tif"), mask);
   ASSERT_EQ(generalize_file({path("in.tif"), path("masked.tif"), "--global", "1,1,0", "--mask",
                              path("mask.tif")})
@@ -240,12 +239,11 @@ TEST_F(GeneralizeCommand, WhereTheMaskIsZeroNothingChangesWhateverActs) {
   dem.crs = normalize_crs("EPSG:32632");
   dem.cells = Grid<float>(120, 150);
   Raster<float> mask = dem;
-  for (int y = 0; y < 150; ++y)
-    for (int x = 0; x < 120; ++x) {
-      dem.cells(x, y) = static_cast<float>(900.0 + 12.0 * std::abs(x - 60) + 2.0 * (150 - y) +
-                                           20.0 * std::sin(x * 1.9) * std::cos(y * 1.3));
-      mask.cells(x, y) = y < 70 ? 0.F : 255.F;
-    }
+  for (const auto [x, y] : test::cells(120, 150)) {
+    dem.cells(x, y) = static_cast<float>(900.0 + 12.0 * std::abs(x - 60) + 2.0 * (150 - y) +
+                                         20.0 * std::sin(x * 1.9) * std::cos(y * 1.3));
+    mask.cells(x, y) = y < 70 ? 0.F : 255.F;
+  }
   write_raster(path("in.tif"), dem);
   write_raster(path("mask.tif"), mask);
   for (const std::vector<std::string>& what :
@@ -261,14 +259,12 @@ TEST_F(GeneralizeCommand, WhereTheMaskIsZeroNothingChangesWhateverActs) {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const Raster<float> out = read_raster_file(path("out.tif"));
     double changed = 0.0;
-    for (int y = 0; y < 150; ++y)
-      for (int x = 0; x < 120; ++x) {
-        if (y < 70) {
-          ASSERT_EQ(out.cells(x, y), dem.cells(x, y)) << x << ' ' << y;
-        }
-        changed =
-            std::max(changed, static_cast<double>(std::abs(out.cells(x, y) - dem.cells(x, y))));
+    for (const auto [x, y] : test::cells(120, 150)) {
+      if (y < 70) {
+        ASSERT_EQ(out.cells(x, y), dem.cells(x, y)) << x << ' ' << y;
       }
+      changed = std::max(changed, static_cast<double>(std::abs(out.cells(x, y) - dem.cells(x, y))));
+    }
     EXPECT_GT(changed, 20.0);
   }
 }

@@ -1,5 +1,4 @@
 // `belvedere schema` as users meet it.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "renderer/scene/scene_file.h"

@@ -5,6 +5,8 @@
 
 #include "renderer/style/style_file.h"
 #include "tests/tools/cli/bands.h"
+#include "tests/grids.h"
+#include "tests/renderer/image/picture_bytes.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/image/image_io.h"
+#include "tests/grids.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -43,8 +44,7 @@ TEST_F(SynthesizePaintings, MasksMayBeDrawnInColours) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("0 is #0000ff, 1 is #ffff00"));
   const Grid<std::uint32_t> xs = read_id_channel(path("m.exr"), "x");
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) ASSERT_EQ(xs(x, y) <= 20, x <= 19) << x << " " << y;
+  for (const auto [x, y] : test::cells(40, 40)) ASSERT_EQ(xs(x, y) <= 20, x <= 19) << x << " " << y;
 }
 
 TEST_F(SynthesizePaintings, ExcludedTexelsAreNeverCopied) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -23,9 +24,8 @@ class Lock : public Program {
   void SetUp() override {
     Raster<float> raster{
         Grid<float>(48, 48), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
-    for (int y = 0; y < 48; ++y)
-      for (int x = 0; x < 48; ++x)
-        raster.cells(x, y) = static_cast<float>(1000 + (x * 37 + y * 53) % 200);
+    for (const auto [x, y] : test::cells(48, 48))
+      raster.cells(x, y) = static_cast<float>(1000 + (x * 37 + y * 53) % 200);
     fs::create_directories(path("data"));
     write_raster(path("data/dem.tif"), raster);
     write_hills("alps");

@@ -8,7 +8,6 @@
 #include <map>
 
 #include "tests/tools/cli/small_commands.h"
-#include "tools/cli/commands.h"
 
 namespace belvedere {
 namespace {

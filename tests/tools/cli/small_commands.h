@@ -11,6 +11,7 @@
 
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/renderer/image/icc/press_profile.h"
 #include "tests/tools/program.h"
 
@@ -102,11 +103,10 @@ class SmallCommands : public Program {
                       normalize_crs("EPSG:32632")};
     Raster<std::uint8_t> classes{Grid<std::uint8_t>(size.width, size.height), frame(250.0),
                                  dem.crs};
-    for (int y = 0; y < size.height; ++y)
-      for (int x = 0; x < size.width; ++x) {
-        dem.cells(x, y) = height_m(x, y);
-        classes.cells(x, y) = static_cast<std::uint8_t>(1 + (x + y) % 2);
-      }
+    for (const auto [x, y] : test::cells(size.width, size.height)) {
+      dem.cells(x, y) = height_m(x, y);
+      classes.cells(x, y) = static_cast<std::uint8_t>(1 + (x + y) % 2);
+    }
     write_raster(path("dem.tif"), dem);
     write_raster(path("classes.tif"), classes);
     write("legend.toml", "name = \"test\"\n[codes]\n1 = \"pasture\"\n2 = \"rock\"\n");

@@ -7,6 +7,7 @@
 
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/tools/read_options.h"
 
 namespace belvedere::tools {
@@ -21,10 +22,9 @@ TerrainOperators read_operators(const std::string& line) {
 // A cone with stripes of ±1 m along rows.
 Grid<float> striped_cone() {
   Grid<float> cells(60, 50);
-  for (int y = 0; y < 50; ++y)
-    for (int x = 0; x < 60; ++x)
-      cells(x, y) =
-          static_cast<float>(900.0 - 8.0 * std::hypot(x - 30, y - 25) + (y % 2 == 0 ? 1.0 : -1.0));
+  for (const auto [x, y] : test::cells(60, 50))
+    cells(x, y) =
+        static_cast<float>(900.0 - 8.0 * std::hypot(x - 30, y - 25) + (y % 2 == 0 ? 1.0 : -1.0));
   return cells;
 }
 

@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "renderer/image/image_io.h"
-#include "terrain/io/crs.h"
 #include "tests/files.h"
 #include "tests/grids.h"
 #include "tests/tools/pick/picking_world.h"
@@ -295,8 +294,7 @@ TEST(ReliefMap, IsLitFromTheWestAndGreenInTheValleys) {
 TEST(ReliefMap, HasNoReliefWithoutDataAndIsReduced) {
   Dem dem = ridge();
   dem.filled = Grid<std::uint8_t>(60, 40);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 10; ++x) dem.filled(x, y) = 1;
+  for (const auto [x, y] : test::cells(10, 40)) dem.filled(x, y) = 1;
   const ReliefMap map = relief_map(dem, 30);
   EXPECT_EQ(map.cells_per_px, 2);
   EXPECT_EQ(map.picture.width(), 30);
@@ -307,9 +305,8 @@ TEST(ReliefMap, HasNoReliefWithoutDataAndIsReduced) {
 
 TEST(PictureTiles, AreThoseOfTheFiles) {
   Grid<glm::vec3> picture(150, 90);
-  for (int y = 0; y < 90; ++y)
-    for (int x = 0; x < 150; ++x)
-      picture(x, y) = {static_cast<float>(x) / 150.F, static_cast<float>(y) / 90.F, 0.5F};
+  for (const auto [x, y] : test::cells(150, 90))
+    picture(x, y) = {static_cast<float>(x) / 150.F, static_cast<float>(y) / 90.F, 0.5F};
   const test::Folder folder;
   write_png8(folder / "a.png", picture, {});
   Progress progress;

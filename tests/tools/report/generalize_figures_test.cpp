@@ -11,6 +11,7 @@
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/mask.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
@@ -19,12 +20,10 @@ namespace {
 // A plain with a rough patch near the south-eastern corner and a smaller one in the north-western.
 Grid<float> two_patches() {
   Grid<float> out(900, 900, 500.F);
-  for (int y = 0; y < 900; ++y) {
-    for (int x = 0; x < 900; ++x) {
-      const bool south = x > 600 && y > 600;
-      const bool north = x < 150 && y < 150;
-      if (south || north) out(x, y) += static_cast<float>(60.0 * std::abs(std::sin(x / 5.0)));
-    }
+  for (const auto [x, y] : test::cells(900, 900)) {
+    const bool south = x > 600 && y > 600;
+    const bool north = x < 150 && y < 150;
+    if (south || north) out(x, y) += static_cast<float>(60.0 * std::abs(std::sin(x / 5.0)));
   }
   return out;
 }
@@ -48,9 +47,8 @@ double largest_step(const Grid<glm::vec3>& a, const Grid<glm::vec3>& b) {
 // Mean difference of neighbours along the row.
 double roughness(const Grid<glm::vec3>& picture) {
   double sum = 0.0;
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 1; x < picture.width(); ++x)
-      sum += std::abs(picture(x, y).g - picture(x - 1, y).g);
+  for (const auto [x, y] : test::cells({1, 0, picture.width(), picture.height()}))
+    sum += std::abs(picture(x, y).g - picture(x - 1, y).g);
   return sum / static_cast<double>(picture.size());
 }
 
@@ -67,12 +65,11 @@ TEST(GeneralizeFigures, AddsTheFiveOfThePaper) {
   Report page(folder.path());
   Grid<float> ground(120, 110);
   Grid<float> share(120, 110);
-  for (int y = 0; y < 110; ++y)
-    for (int x = 0; x < 120; ++x) {
-      ground(x, y) = static_cast<float>(
-          y > 80 ? 780.0 : 800.0 + 200.0 * std::abs(std::sin(x / 9.0)) + 8.0 * std::sin(y / 2.0));
-      share(x, y) = static_cast<float>(y) / 110.F;
-    }
+  for (const auto [x, y] : test::cells(120, 110)) {
+    ground(x, y) = static_cast<float>(
+        y > 80 ? 780.0 : 800.0 + 200.0 * std::abs(std::sin(x / 9.0)) + 8.0 * std::sin(y / 2.0));
+    share(x, y) = static_cast<float>(y) / 110.F;
+  }
   const glm::dvec2 cell{30.0, 30.0};
   const GeneralizeReportInput input{"t", "c", ground, ground, cell, {}, {}};
   add_paper_figures(page, input, share, choose_windows(ground, cell, share), silent_progress());

@@ -11,6 +11,7 @@
 
 #include "renderer/image/image_io.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -24,14 +25,11 @@ using ::testing::HasSubstr;
 Raster<float> mountains() {
   Raster<float> dem;
   dem.cells = Grid<float>(260, 180);
-  for (int y = 0; y < 180; ++y) {
-    for (int x = 0; x < 260; ++x) {
-      const double ridge =
-          500.0 * std::abs(std::sin(x / 21.0)) * std::abs(std::sin((x + y) / 37.0)) +
-          14.0 * std::sin(x * 1.9) * std::cos(y * 2.3);
-      dem.cells(x, y) =
-          static_cast<float>(600.0 + (x > 60 ? ridge * std::min((x - 60) / 20.0, 1.0) : 0.0));
-    }
+  for (const auto [x, y] : test::cells(260, 180)) {
+    const double ridge = 500.0 * std::abs(std::sin(x / 21.0)) * std::abs(std::sin((x + y) / 37.0)) +
+                         14.0 * std::sin(x * 1.9) * std::cos(y * 2.3);
+    dem.cells(x, y) =
+        static_cast<float>(600.0 + (x > 60 ? ridge * std::min((x - 60) / 20.0, 1.0) : 0.0));
   }
   dem.transform = {600000.0, 5200000.0, 30.0, 30.0};
   dem.crs = normalize_crs("EPSG:32632");

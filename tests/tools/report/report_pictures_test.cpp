@@ -11,6 +11,7 @@
 
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere::tools {
 namespace {
@@ -108,11 +109,10 @@ Ink ink_of(const std::string& text, int scale, int x = 0, int y = 0) {
   Grid<glm::vec3> picture(300, 40, paper);
   draw_text(picture, x, y, text, glm::vec3(0.F), scale);
   Ink ink;
-  for (int v = 0; v < picture.height(); ++v)
-    for (int u = 0; u < picture.width(); ++u)
-      if (picture(u, v).x < 0.5F)
-        ink = {std::min(ink.left, u), std::max(ink.right, u), std::min(ink.top, v),
-               std::max(ink.bottom, v)};
+  for (const auto [u, v] : test::cells(picture))
+    if (picture(u, v).x < 0.5F)
+      ink = {std::min(ink.left, u), std::max(ink.right, u), std::min(ink.top, v),
+             std::max(ink.bottom, v)};
   return ink;
 }
 
@@ -138,8 +138,8 @@ TEST(PictureText, WhatLiesOutsideIsCutOff) {
 
 Grid<glm::vec3> colours(int width, int height) {
   Grid<glm::vec3> picture(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) picture(x, y) = glm::vec3(x, y, (x + y) % 200) / 255.F;
+  for (const auto [x, y] : test::cells(width, height))
+    picture(x, y) = glm::vec3(x, y, (x + y) % 200) / 255.F;
   return picture;
 }
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "tests/grids.h"
 #include "texture/synthesis/match_cost.h"
 
 namespace belvedere::tools {
@@ -20,23 +20,19 @@ class SynthesisFindingsTest : public ::testing::Test {
     Exemplar painting{.name = "p.png", .picture = Grid<Rgb8>(160, 160), .guides = {}};
     painting.guides.label = Grid<std::uint8_t>(160, 160, 1);
     Grid<std::uint8_t> columns(160, 160);
-    for (int y = 0; y < 160; ++y) {
-      for (int x = 0; x < 160; ++x) {
-        columns(x, y) = static_cast<std::uint8_t>(x);
-        painting.picture(x, y) = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), 9};
-      }
+    for (const auto [x, y] : test::cells(160, 160)) {
+      columns(x, y) = static_cast<std::uint8_t>(x);
+      painting.picture(x, y) = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), 9};
     }
     painting.guides.guides.push_back({"altitude", columns});
     paintings_.push_back(std::move(painting));
     target_.label = Grid<std::uint8_t>(128, 128, 1);
     Grid<std::uint8_t> asked(128, 128);
     matches_ = MatchField(128, 128);
-    for (int y = 0; y < 128; ++y) {
-      for (int x = 0; x < 128; ++x) {
-        asked(x, y) = static_cast<std::uint8_t>(x < 64 ? x : x + 10);
-        matches_(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
-        if (x < 16 && y < 16) matches_(x, y) = {0, 3, 3};
-      }
+    for (const auto [x, y] : test::cells(128, 128)) {
+      asked(x, y) = static_cast<std::uint8_t>(x < 64 ? x : x + 10);
+      matches_(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
+      if (x < 16 && y < 16) matches_(x, y) = {0, 3, 3};
     }
     target_.guides.push_back({"altitude", asked});
     target_.guides.push_back({"weightless", asked});

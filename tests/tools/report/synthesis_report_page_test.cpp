@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -101,16 +102,14 @@ TEST_F(SynthesisReport, NumbersAreThoseOfTheMatches) {
   double squares = 0.0;
   std::size_t max = 0;
   Grid<std::size_t> uses(120, 96, 0);
-  for (int y = 0; y < 90; ++y) {
-    for (int x = 0; x < 100; ++x) {
-      ASSERT_EQ(exemplar(x, y), 0U);
-      const int tx = static_cast<int>(xs(x, y));
-      const int ty = static_cast<int>(ys(x, y));
-      const double off = std::abs(style_altitude(tx, ty) - target_altitude(x, y));
-      error += off;
-      squares += off * off;
-      max = std::max(max, ++uses(tx, ty));
-    }
+  for (const auto [x, y] : test::cells(100, 90)) {
+    ASSERT_EQ(exemplar(x, y), 0U);
+    const int tx = static_cast<int>(xs(x, y));
+    const int ty = static_cast<int>(ys(x, y));
+    const double off = std::abs(style_altitude(tx, ty) - target_altitude(x, y));
+    error += off;
+    squares += off * off;
+    max = std::max(max, ++uses(tx, ty));
   }
   const std::string guide = "\"name\": \"altitude\"[^}]*";
   EXPECT_NEAR(number(json, guide + "\"error_mean\""), error / 9000.0, 1e-9);
@@ -143,11 +142,9 @@ TEST_F(SynthesisReport, OfSeveralPaintingsTellsTheirSeams) {
   const std::string json = read_bytes(path("two/report.json"));
   const Grid<std::uint32_t> exemplar = read_id_channel(path("match.exr"), "exemplar");
   std::size_t pairs = 0;
-  for (int y = 0; y < 90; ++y) {
-    for (int x = 0; x < 100; ++x) {
-      pairs += x < 99 && exemplar(x, y) != exemplar(x + 1, y) ? 1 : 0;
-      pairs += y < 89 && exemplar(x, y) != exemplar(x, y + 1) ? 1 : 0;
-    }
+  for (const auto [x, y] : test::cells(100, 90)) {
+    pairs += x < 99 && exemplar(x, y) != exemplar(x + 1, y) ? 1 : 0;
+    pairs += y < 89 && exemplar(x, y) != exemplar(x, y + 1) ? 1 : 0;
   }
   EXPECT_GT(pairs, 0U);
   const std::string between = "\"seams\": \"from one painting to another\"[^}]*";

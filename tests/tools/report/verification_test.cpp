@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "renderer/image/image_io.h"
 #include "tests/files.h"
 #include "tests/http_server.h"
 

@@ -21,6 +21,7 @@
 #include "renderer/image/srgb.h"
 #include "terrain/io/crs.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/tools/report/browser.h"
 
 // The page of a panorama: its content, and the effect of pointer, keys, GPX files and links in a
@@ -56,14 +57,13 @@ class WebPage : public testing::Test {
     guidance.altitude_m = Grid<float>(width, height, 1234.F);
     guidance.position_m = Grid<glm::vec3>(width, height, glm::vec3(0.F));
     guidance.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::sky);
-    for (int y = 100; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const float up = y >= 400 && y < 450 ? 30000.F : 0.F;
-        guidance.depth_m(x, y) = 20000.F;
-        guidance.position_m(x, y) = {10.F * (static_cast<float>(x) + .5F),
-                                     10.F * (static_cast<float>(height - y) - .5F) + up, 1234.F};
-        guidance.land_cover(x, y) = LandCoverClass::rock;
-      }
+    for (const auto [x, y] : test::cells({0, 100, width, height})) {
+      const float up = y >= 400 && y < 450 ? 30000.F : 0.F;
+      guidance.depth_m(x, y) = 20000.F;
+      guidance.position_m(x, y) = {10.F * (static_cast<float>(x) + .5F),
+                                   10.F * (static_cast<float>(height - y) - .5F) + up, 1234.F};
+      guidance.land_cover(x, y) = LandCoverClass::rock;
+    }
     write_guidance(out + "/guidance.exr", guidance, {{"belvedere:crs", "EPSG:32632"}});
     test::write_bytes(out + "/labels.geojson", R"({"type": "FeatureCollection", "features": [
       {"type": "Feature", "geometry": null, "properties": {"name": "Big </script> Peak", "kind": "summit", "rank": 1, "outcome": "placed", "altitude_file_m": 2749, "pixel": [600, 300]}},
@@ -213,14 +213,13 @@ GuidanceBuffers guidance() {
   out.altitude_m = Grid<float>(sheet_width, sheet_height);
   out.position_m = Grid<glm::vec3>(sheet_width, sheet_height);
   out.land_cover = Grid<LandCoverClass>(sheet_width, sheet_height, LandCoverClass::sky);
-  for (int y = 10; y < sheet_height; ++y)
-    for (int x = 0; x < sheet_width; ++x) {
-      out.depth_m(x, y) = static_cast<float>(100 * y);
-      out.altitude_m(x, y) = static_cast<float>(1000 + x);
-      out.position_m(x, y) = {10.F * static_cast<float>(x),
-                              10.F * static_cast<float>(sheet_height - y), 0.F};
-      out.land_cover(x, y) = x < 40 ? LandCoverClass::forest : LandCoverClass::rock;
-    }
+  for (const auto [x, y] : test::cells({0, 10, sheet_width, sheet_height})) {
+    out.depth_m(x, y) = static_cast<float>(100 * y);
+    out.altitude_m(x, y) = static_cast<float>(1000 + x);
+    out.position_m(x, y) = {10.F * static_cast<float>(x),
+                            10.F * static_cast<float>(sheet_height - y), 0.F};
+    out.land_cover(x, y) = x < 40 ? LandCoverClass::forest : LandCoverClass::rock;
+  }
   return out;
 }
 
@@ -234,22 +233,21 @@ TEST(ReadOut, IsTheMiddleOfSquaresOfPixels) {
   ASSERT_EQ(out.step_px, 3);
   ASSERT_EQ(out.distance_m.width(), 30);
   ASSERT_EQ(out.distance_m.height(), 24);
-  for (int row = 0; row < 24; ++row)
-    for (int column = 0; column < 30; ++column) {
-      const int x = std::min(3 * column + 1, sheet_width - 1);
-      const int y = std::min(3 * row + 1, sheet_height - 1);
-      ASSERT_EQ(std::isinf(out.distance_m(column, row)), y < 10);
-      if (y < 10) continue;
-      ASSERT_EQ(out.distance_m(column, row), static_cast<float>(100 * y));
-      ASSERT_EQ(out.altitude_m(column, row), static_cast<float>(1000 + x));
-      ASSERT_EQ(out.class_id(column, row),
-                static_cast<float>(x < 40 ? LandCoverClass::forest : LandCoverClass::rock));
-      const glm::dvec2 position =
-          transform_point("EPSG:32632", "EPSG:4326",
-                          glm::dvec2(sheet_origin) + 10.0 * glm::dvec2(x, sheet_height - y));
-      ASSERT_NEAR(out.longitude_deg(column, row), position.x, 1e-6);
-      ASSERT_NEAR(out.latitude_deg(column, row), position.y, 1e-6);
-    }
+  for (const auto [column, row] : test::cells(30, 24)) {
+    const int x = std::min(3 * column + 1, sheet_width - 1);
+    const int y = std::min(3 * row + 1, sheet_height - 1);
+    ASSERT_EQ(std::isinf(out.distance_m(column, row)), y < 10);
+    if (y < 10) continue;
+    ASSERT_EQ(out.distance_m(column, row), static_cast<float>(100 * y));
+    ASSERT_EQ(out.altitude_m(column, row), static_cast<float>(1000 + x));
+    ASSERT_EQ(out.class_id(column, row),
+              static_cast<float>(x < 40 ? LandCoverClass::forest : LandCoverClass::rock));
+    const glm::dvec2 position =
+        transform_point("EPSG:32632", "EPSG:4326",
+                        glm::dvec2(sheet_origin) + 10.0 * glm::dvec2(x, sheet_height - y));
+    ASSERT_NEAR(out.longitude_deg(column, row), position.x, 1e-6);
+    ASSERT_NEAR(out.latitude_deg(column, row), position.y, 1e-6);
+  }
   EXPECT_THAT(read_out_script(out), HasSubstr("\"longitude\""));
 }
 
@@ -353,10 +351,9 @@ namespace fs = std::filesystem;
 // Smooth, so that JPEG keeps it.
 Grid<glm::vec3> slope(int width, int height) {
   Grid<glm::vec3> out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      out(x, y) = {static_cast<float>(x) / static_cast<float>(width),
-                   static_cast<float>(y) / static_cast<float>(height), 0.5F};
+  for (const auto [x, y] : test::cells(width, height))
+    out(x, y) = {static_cast<float>(x) / static_cast<float>(width),
+                 static_cast<float>(y) / static_cast<float>(height), 0.5F};
   return out;
 }
 
@@ -398,8 +395,7 @@ TEST(TilePyramid, TilesOfEveryLevelShowThePicture) {
 TEST(TilePyramid, SmallerLevelsAreMeansOfLight) {
   const test::Folder folder;
   Grid<glm::vec3> stripes(128, 128);
-  for (int y = 0; y < 128; ++y)
-    for (int x = 0; x < 128; ++x) stripes(x, y) = glm::vec3(x % 2 == 0 ? 0.F : 1.F);
+  for (const auto [x, y] : test::cells(128, 128)) stripes(x, y) = glm::vec3(x % 2 == 0 ? 0.F : 1.F);
   write_png8(folder / "a.png", stripes, {});
   Progress progress;
   ASSERT_EQ(write_tile_pyramid(folder / "a.png", folder / "tiles", {64, 95}, progress).levels, 2);

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cmath>
 #include <limits>
 
 #include "base/error.h"
@@ -12,6 +10,7 @@
 #include "base/random.h"
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/image/exr/mixed_channels.h"
 #include "tests/renderer/image/picture_bytes.h"
 
@@ -38,12 +37,10 @@ TEST(ExrWriter, RoundTripOfMixedChannels) {
     const Grid<std::uint32_t> ids = read_id_channel(path, "landcover.id");
     ASSERT_EQ(z.width(), width);
     ASSERT_EQ(z.height(), height);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        ASSERT_EQ(z(x, y), z_value(x, y));
-        ASSERT_NEAR(tone(x, y), tone_value(x, y), 0x1p-12);  // half: 11 bits below 1, rounded
-        ASSERT_EQ(ids(x, y), id_value(x, y)) << x << " " << y;
-      }
+    for (const auto [x, y] : test::cells(width, height)) {
+      ASSERT_EQ(z(x, y), z_value(x, y));
+      ASSERT_NEAR(tone(x, y), tone_value(x, y), 0x1p-12);  // half: 11 bits below 1, rounded
+      ASSERT_EQ(ids(x, y), id_value(x, y)) << x << " " << y;
     }
     EXPECT_EQ(folder.count(), 1u) << "no temporary file stays";
   }

@@ -10,6 +10,7 @@
 
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -18,11 +19,10 @@ TEST(MatchFile, HoldsEveryMatchAndThePictures) {
   const test::Folder folder;
   // Two bands, the second short.
   MatchField matches(37, 100);
-  for (int y = 0; y < 100; ++y)
-    for (int x = 0; x < 37; ++x)
-      if ((x + y) % 5 != 0)
-        matches(x, y) = {static_cast<std::uint16_t>(x % 2), static_cast<std::uint16_t>(30000 + x),
-                         static_cast<std::uint16_t>(7 * y)};
+  for (const auto [x, y] : test::cells(37, 100))
+    if ((x + y) % 5 != 0)
+      matches(x, y) = {static_cast<std::uint16_t>(x % 2), static_cast<std::uint16_t>(30000 + x),
+                       static_cast<std::uint16_t>(7 * y)};
   const std::string note = to_note({{"a painting.jpg", 32000, 900}, {"b.png", 31000, 700}});
   MatchWriter writer(folder / "m.exr", 37, 100, note, {{"other", "kept"}});
   for (int y0 = 0; y0 < 100; y0 += ExrWriter::band_rows) {

@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "renderer/image/image_io.h"
+#include "tests/grids.h"
 
 namespace belvedere::test {
 
@@ -36,12 +37,10 @@ inline void write_mixed(const std::string& path, int width, int height,
   for (int y0 = 0; y0 < height; y0 += step) {
     const int rows = std::min(step, height - y0);
     std::vector<float> values, ids;
-    for (int y = y0; y < y0 + rows; ++y) {
-      for (int x = 0; x < width; ++x) {
-        values.push_back(z_value(x, y));
-        values.push_back(tone_value(x, y));
-        ids.push_back(std::bit_cast<float>(id_value(x, y)));
-      }
+    for (const auto [x, y] : test::cells({0, y0, width, y0 + rows})) {
+      values.push_back(z_value(x, y));
+      values.push_back(tone_value(x, y));
+      ids.push_back(std::bit_cast<float>(id_value(x, y)));
     }
     writer.write_rows(1, y0, rows, ids);  // parts in any order
     writer.write_rows(0, y0, rows, values);

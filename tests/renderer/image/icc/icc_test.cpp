@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cmath>
-
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"

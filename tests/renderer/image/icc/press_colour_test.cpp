@@ -15,6 +15,7 @@
 #include "renderer/image/rows/picture_files.h"
 #include "renderer/image/srgb.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/image/icc/press_profile.h"
 #include "tests/renderer/image/random_picture.h"
 
@@ -57,21 +58,19 @@ RawTiff read_raw(const std::string& path, int width, int height) {
     out.profile.assign(static_cast<std::uint8_t*>(data), static_cast<std::uint8_t*>(data) + size);
   out.inks = Grid<Inks>(width, height);
   std::vector<std::uint8_t> tile(static_cast<std::size_t>(TIFFTileSize(tiff.get())));
-  for (int y0 = 0; y0 < height; y0 += 256)
-    for (int x0 = 0; x0 < width; x0 += 256) {
-      TIFFReadTile(tiff.get(), tile.data(), static_cast<std::uint32_t>(x0),
-                   static_cast<std::uint32_t>(y0), 0, 0);
-      for (int y = y0; y < std::min(height, y0 + 256); ++y)
-        for (int x = x0; x < std::min(width, x0 + 256); ++x)
-          for (int c = 0; c < 4; ++c) {
-            const auto i = static_cast<std::size_t>(((y - y0) * 256 + x - x0) * 4 + c);
-            out.inks(x, y)[c] =
-                out.bits == 16
-                    ? static_cast<float>(reinterpret_cast<std::uint16_t*>(tile.data())[i]) /
-                          65535.0F
-                    : static_cast<float>(tile[i]) / 255.0F;
-          }
-    }
+  for (const auto [x0, y0] : test::cells({0, 0, width, height}, 256)) {
+    TIFFReadTile(tiff.get(), tile.data(), static_cast<std::uint32_t>(x0),
+                 static_cast<std::uint32_t>(y0), 0, 0);
+    for (const auto [x, y] :
+         test::cells({x0, y0, std::min(width, x0 + 256), std::min(height, y0 + 256)}))
+      for (int c = 0; c < 4; ++c) {
+        const auto i = static_cast<std::size_t>(((y - y0) * 256 + x - x0) * 4 + c);
+        out.inks(x, y)[c] =
+            out.bits == 16
+                ? static_cast<float>(reinterpret_cast<std::uint16_t*>(tile.data())[i]) / 65535.0F
+                : static_cast<float>(tile[i]) / 255.0F;
+      }
+  }
   return out;
 }
 

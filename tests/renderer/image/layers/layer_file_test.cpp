@@ -15,6 +15,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/srgb.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 // Files of layers, read by programs of other people: Python's zipfile, OpenImageIO, ImageMagick
 // (OpenImageIO finds no layers of 16 bits in PSD).
@@ -27,15 +28,14 @@ using testing::HasSubstr;
 
 Grid<LayerPixel> random_layer(int width, int height, int number) {
   Grid<LayerPixel> out(width, height, LayerPixel{});
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (std::uint64_t c = 0; c < 4; ++c) {
-        // Runs of equal bytes, noise, and nothing: all cases of PackBits.
-        const double v = y % 3 == 0   ? random_uniform(3, x + 1000 * number, y, c)
-                         : y % 3 == 1 ? 0.25 * (number % 4)
-                                      : 0.0;
-        out(x, y)[c] = static_cast<std::uint16_t>(v * 65535.0);
-      }
+  for (const auto [x, y] : test::cells(width, height))
+    for (std::uint64_t c = 0; c < 4; ++c) {
+      // Runs of equal bytes, noise, and nothing: all cases of PackBits.
+      const double v = y % 3 == 0   ? random_uniform(3, x + 1000 * number, y, c)
+                       : y % 3 == 1 ? 0.25 * (number % 4)
+                                    : 0.0;
+      out(x, y)[c] = static_cast<std::uint16_t>(v * 65535.0);
+    }
   return out;
 }
 
@@ -166,15 +166,14 @@ constexpr int height = 150;  // two bands and a piece of one
 // Opaque, half covering and empty pixels; the last is hidden.
 Grid<LayerPixel> layer(int number) {
   Grid<LayerPixel> out(width, height, LayerPixel{});
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const double kind = random_uniform(5, x, y, static_cast<std::uint64_t>(10 * number));
-      if (number > 0 && kind < 0.3) continue;
-      for (std::uint64_t c = 0; c < 4; ++c)
-        out(x, y)[c] = static_cast<std::uint16_t>(
-            65535.0 * random_uniform(5, x, y, static_cast<std::uint64_t>(10 * number) + 1 + c));
-      if (number == 0 || kind > 0.8) out(x, y)[3] = 65535;
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const double kind = random_uniform(5, x, y, static_cast<std::uint64_t>(10 * number));
+    if (number > 0 && kind < 0.3) continue;
+    for (std::uint64_t c = 0; c < 4; ++c)
+      out(x, y)[c] = static_cast<std::uint16_t>(
+          65535.0 * random_uniform(5, x, y, static_cast<std::uint64_t>(10 * number) + 1 + c));
+    if (number == 0 || kind > 0.8) out(x, y)[3] = 65535;
+  }
   return out;
 }
 

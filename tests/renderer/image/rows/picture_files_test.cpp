@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -18,6 +17,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/picture_formats.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/image/random_picture.h"
 #include "tests/renderer/image/rows/write_pictures.h"
 #include "tests/small_disk.h"
@@ -109,15 +109,14 @@ TEST(PictureFiles, APngAboveItsLongestSideIsReducedInLinearLight) {
     ASSERT_EQ(png.width(), (width + factor - 1) / factor);
     ASSERT_EQ(png.height(), (height + factor - 1) / factor);
     Image mean(png.width(), png.height());
-    for (int y = 0; y < mean.height(); ++y)
-      for (int x = 0; x < mean.width(); ++x) {
-        glm::dvec3 sum(0.0);
-        int count = 0;
-        for (int v = y * factor; v < std::min(height, (y + 1) * factor); ++v)
-          for (int u = x * factor; u < std::min(width, (x + 1) * factor); ++u, ++count)
-            sum += glm::dvec3(linear(u, v));
-        mean(x, y) = glm::vec3(sum / static_cast<double>(count));
-      }
+    for (const auto [x, y] : test::cells(mean)) {
+      glm::dvec3 sum(0.0);
+      int count = 0;
+      for (int v = y * factor; v < std::min(height, (y + 1) * factor); ++v)
+        for (int u = x * factor; u < std::min(width, (x + 1) * factor); ++u, ++count)
+          sum += glm::dvec3(linear(u, v));
+      mean(x, y) = glm::vec3(sum / static_cast<double>(count));
+    }
     const Grid<glm::vec3> shown = to_display(mean, {});
     for (std::size_t i = 0; i < png.size(); ++i)
       for (int c = 0; c < 3; ++c)

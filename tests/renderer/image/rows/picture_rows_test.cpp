@@ -4,15 +4,15 @@
 
 #include "base/random.h"
 #include "renderer/image/srgb.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
 
 TEST(RowReducer, PixelsAreMeansOfWhatIsThere) {
   Image picture(5, 3);
-  for (int y = 0; y < 3; ++y)
-    for (int x = 0; x < 5; ++x)
-      picture(x, y) = glm::vec3(static_cast<float>(10 * y + x), 0.0F, static_cast<float>(x));
+  for (const auto [x, y] : test::cells(5, 3))
+    picture(x, y) = glm::vec3(static_cast<float>(10 * y + x), 0.0F, static_cast<float>(x));
   RowReducer reducer(5, 3, 2);
   EXPECT_EQ(reducer.width(), 3);
   EXPECT_EQ(reducer.height(), 2);
@@ -28,9 +28,8 @@ TEST(RowReducer, PixelsAreMeansOfWhatIsThere) {
 
 TEST(RowReducer, RowsComeWhenTheyAreComplete) {
   Image picture(700, 10);
-  for (int y = 0; y < 10; ++y)
-    for (int x = 0; x < 700; ++x)
-      picture(x, y) = glm::vec3(static_cast<float>(random_uniform(1, x, y)));
+  for (const auto [x, y] : test::cells(700, 10))
+    picture(x, y) = glm::vec3(static_cast<float>(random_uniform(1, x, y)));
   const Image whole = RowReducer(700, 10, 3).reduce(picture);
   ASSERT_EQ(whole.height(), 4);
   RowReducer reducer(700, 10, 3);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {
@@ -27,8 +28,7 @@ TEST(BaseSurroundings, GroundWithoutWaterAndIceSkipsWhatTheyNeed) {
 // The edge of a wood lies in the middle of the belt of dwarf pine.
 TEST(BaseSurroundings, WoodIsTheShareOfForestAround) {
   GuidanceBuffers g = meadow();
-  for (int y = 0; y < 24; ++y)
-    for (int x = 0; x < 80; ++x) g.land_cover(x, y) = LandCoverClass::forest;
+  for (const auto [x, y] : test::cells(80, 24)) g.land_cover(x, y) = LandCoverClass::forest;
   const BaseSurroundings s = around(g);
   EXPECT_GT(s.wood(10, 12), 0.99F);
   EXPECT_NEAR(0.5F * (s.wood(79, 12) + s.wood(80, 12)), 0.5F, 0.01F);

@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "renderer/image/srgb.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -27,8 +28,7 @@ TerrainModel meadow(int size, Colour&& colour, double origin_x = west) {
   model.generalized_m = model.dem->altitude_m;
   LandCover cover{{Grid<LandCoverClass>(size, size, pasture), transform, ""},
                   {Grid<GroundColour>(size, size), transform, ""}};
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) cover.colours.cells(x, y) = colour(x, y);
+  for (const auto [x, y] : test::cells(size, size)) cover.colours.cells(x, y) = colour(x, y);
   model.land_cover = std::make_shared<const LandCover>(std::move(cover));
   return model;
 }

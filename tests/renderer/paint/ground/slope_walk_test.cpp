@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {
@@ -14,8 +15,7 @@ using enum LandCoverClass;
 // A walk ends where the class ends, and reports what is there.
 TEST(SlopeWalk, EndsWhereItsGroundEnds) {
   GuidanceBuffers g = test::make_slope(120, 120, scree, {0.0F, 0.0F, 1.0F}, 32.0F);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 120; ++x) g.land_cover(x, y) = rock;
+  for (const auto [x, y] : test::cells(120, 40)) g.land_cover(x, y) = rock;
   const Grid<float> noise(120, 120, 1.0F);
   const SlopeStart start{{60, 60}, {0.0F, 1.0F}, g.depth_m(60, 60)};
   const SlopeWalk up = walk_slope({g}, noise, start, scree, {2.0F, -1.0F, 26, 5});
@@ -34,11 +34,10 @@ TEST(SlopeWalk, NeighboursThatLeaveTheirGroundSideBySideTellPlacesSideBySide) {
   // as its column gives.
   constexpr int factor = 8;
   GuidanceBuffers g = test::make_slope(40, 40, scree, {0.0F, 0.0F, 1.0F}, 32.0F);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) {
-      g.position_m(x, y) = {80.0F * static_cast<float>(x), -80.0F * static_cast<float>(y), 1200.0F};
-      if (y < 10) g.land_cover(x, y) = rock;
-    }
+  for (const auto [x, y] : test::cells(40, 40)) {
+    g.position_m(x, y) = {80.0F * static_cast<float>(x), -80.0F * static_cast<float>(y), 1200.0F};
+    if (y < 10) g.land_cover(x, y) = rock;
+  }
   const WideView wide{g, factor};
   const Grid<float> noise(40, 40, 1.0F);
   const auto left_at = [&](int x, int y) {
@@ -58,13 +57,12 @@ TEST(SlopeWalk, NeighboursThatLeaveTheirGroundSideBySideTellPlacesSideBySide) {
 // At a depth edge the ground behind must not affect the position.
 TEST(SlopeWalk, APlaceIsOfItsOwnSurface) {
   GuidanceBuffers g = test::make_slope(40, 40, scree, {0.0F, 0.0F, 1.0F}, 32.0F);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) {
-      const bool behind = x >= 20;
-      g.depth_m(x, y) = behind ? 60000.0F : 20000.0F;
-      g.position_m(x, y) = glm::vec3(behind ? 50000.0F : 100.0F, 0.0F, 1200.0F);
-      if (y < 10) g.land_cover(x, y) = rock;
-    }
+  for (const auto [x, y] : test::cells(40, 40)) {
+    const bool behind = x >= 20;
+    g.depth_m(x, y) = behind ? 60000.0F : 20000.0F;
+    g.position_m(x, y) = glm::vec3(behind ? 50000.0F : 100.0F, 0.0F, 1200.0F);
+    if (y < 10) g.land_cover(x, y) = rock;
+  }
   const WideView wide{g, 8};
   const SlopeStart start{{159, 200}, {0.0F, 1.0F}, 20000.0F};
   const SlopeWalk up =
@@ -78,9 +76,8 @@ using enum LandCoverClass;
 // Rock above row 40, grass from row 80 on, scree between; the slope falls straight down.
 GuidanceBuffers fan(int width = 120, int height = 120) {
   GuidanceBuffers g = test::make_slope(width, height, scree, {0.0F, 0.0F, 1.0F}, 32.0F);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      if (y < 40 || y >= 80) g.land_cover(x, y) = y < 40 ? rock : alpine_grass;
+  for (const auto [x, y] : test::cells(width, height))
+    if (y < 40 || y >= 80) g.land_cover(x, y) = y < 40 ? rock : alpine_grass;
   return g;
 }
 
@@ -102,13 +99,12 @@ TEST(ScreeFans, StreaksRunDownTheSlopeAndHaveDeviationOne) {
   double across = 0.0;
   double squares = 0.0;
   int count = 0;
-  for (int y = 60; y < 230; ++y)
-    for (int x = 20; x < 380; ++x) {
-      down += std::abs(fans.streak(x, y + 5) - fans.streak(x, y));
-      across += std::abs(fans.streak(x + 5, y) - fans.streak(x, y));
-      squares += static_cast<double>(fans.streak(x, y)) * static_cast<double>(fans.streak(x, y));
-      ++count;
-    }
+  for (const auto [x, y] : test::cells({20, 60, 380, 230})) {
+    down += std::abs(fans.streak(x, y + 5) - fans.streak(x, y));
+    across += std::abs(fans.streak(x + 5, y) - fans.streak(x, y));
+    squares += static_cast<double>(fans.streak(x, y)) * static_cast<double>(fans.streak(x, y));
+    ++count;
+  }
   EXPECT_LT(down, 0.5 * across);
   EXPECT_NEAR(std::sqrt(squares / count), 1.0, 0.15);
 }
@@ -146,11 +142,10 @@ TEST(ScreeFans, PartEqualsWhole) {
   const GuidanceBuffers held = test::cut(g, part);
   const ScreeFans fans =
       make_scree_fans(held, {held, 1, {part.x0, part.y0}}, {}, {part.x0, part.y0});
-  for (int y = kept.y0; y < kept.y1; ++y)
-    for (int x = kept.x0; x < kept.x1; ++x) {
-      ASSERT_EQ(fans.position(x - part.x0, y - part.y0), whole.position(x, y));
-      ASSERT_EQ(fans.streak(x - part.x0, y - part.y0), whole.streak(x, y));
-    }
+  for (const auto [x, y] : test::cells(kept)) {
+    ASSERT_EQ(fans.position(x - part.x0, y - part.y0), whole.position(x, y));
+    ASSERT_EQ(fans.streak(x - part.x0, y - part.y0), whole.streak(x, y));
+  }
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "tests/grids.h"
+
 namespace belvedere {
 namespace {
 
@@ -18,18 +20,17 @@ TEST(SnowRelief, SlopesAreThoseOfASurface) {
   const double side_m = 160.0;
   const int steps = 400;
   double around = 0.0, up_and_down = 0.0;
-  for (int edge = 0; edge < 4; ++edge)
-    for (int k = 0; k < steps; ++k) {
-      const double t = (k + 0.5) / steps * side_m;
-      const glm::dvec2 corner[4] = {{0, 0}, {side_m, 0}, {side_m, side_m}, {0, side_m}};
-      const glm::dvec2 way[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-      const glm::dvec2 position = corner[edge] + way[edge] * t;
-      const glm::dvec2 slope(snow.at(glm::dvec2(4300.0, 1900.0) + position, metres_per_unit, 0.2)
-                                 .slope);  // swells alone: too small for drifts
-      const double rise = glm::dot(slope, way[edge]) * side_m / steps;
-      around += rise;
-      up_and_down += std::abs(rise);
-    }
+  for (const auto [k, edge] : test::cells(steps, 4)) {
+    const double t = (k + 0.5) / steps * side_m;
+    const glm::dvec2 corner[4] = {{0, 0}, {side_m, 0}, {side_m, side_m}, {0, side_m}};
+    const glm::dvec2 way[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const glm::dvec2 position = corner[edge] + way[edge] * t;
+    const glm::dvec2 slope(snow.at(glm::dvec2(4300.0, 1900.0) + position, metres_per_unit, 0.2)
+                               .slope);  // swells alone: too small for drifts
+    const double rise = glm::dot(slope, way[edge]) * side_m / steps;
+    around += rise;
+    up_and_down += std::abs(rise);
+  }
   EXPECT_GT(up_and_down, 0.0);
   EXPECT_LT(std::abs(around), 0.15 * up_and_down);
 }
@@ -57,12 +58,11 @@ TEST(SnowRelief, IsAsSteepNearAsFarAndSharpAtCrests) {
 TEST(SnowRelief, DriftsLieAcrossTheWind) {
   SnowRelief snow(5, east);
   double along = 0.0, across = 0.0;
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 60; ++x) {
-      const glm::vec2 slope = snow.at({x * 170.0, y * 230.0}, metres_per_unit, 1.0).slope;
-      along += static_cast<double>(slope.x * slope.x);
-      across += static_cast<double>(slope.y * slope.y);
-    }
+  for (const auto [x, y] : test::cells(60, 60)) {
+    const glm::vec2 slope = snow.at({x * 170.0, y * 230.0}, metres_per_unit, 1.0).slope;
+    along += static_cast<double>(slope.x * slope.x);
+    across += static_cast<double>(slope.y * slope.y);
+  }
   EXPECT_GT(along, 2.0 * across);
 }
 
@@ -73,9 +73,9 @@ TEST(SnowRelief, TheSecondFormStandsHigher) {
   SnowRelief snow(11, east);
   double sum = 0.0;
   const int side = 160;
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)  // several deviations apart; no multiple of the lattice
-      sum += static_cast<double>(snow.at({x * 1571.0, y * 2718.0}, metres_per_unit, 0.2).height);
+  for (const auto [x, y] :
+       test::cells(side, side))  // several deviations apart; no multiple of the lattice
+    sum += static_cast<double>(snow.at({x * 1571.0, y * 2718.0}, metres_per_unit, 0.2).height);
   EXPECT_NEAR(sum / (side * side), -0.406, 0.03);
 }
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <memory>
 
 #include "base/error.h"
 #include "base/grid.h"
+#include "tests/grids.h"
 #include "tests/renderer/trace/synthetic_ground.h"
 
 namespace belvedere {
@@ -28,14 +28,13 @@ Ground crater(double slope) {
   ground.dem.filled = Grid<std::uint8_t>(260, 240, 0);
   ground.dem.transform = {0.0, 0.0, bed_cell_m, bed_cell_m};
   ground.water = Grid<std::uint8_t>(260, 240, 0);
-  for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 260; ++x) {
-      const double r = bed_cell_m * std::hypot(x - 110, y - 120);
-      const bool river = x > 110 && std::abs(y - 120) <= 3;
-      ground.water(x, y) = r <= 795.0 || river ? 1 : 0;
-      ground.dem.altitude_m(x, y) =
-          ground.water(x, y) != 0 ? 500.F : static_cast<float>(500.0 + slope * (r - 795.0));
-    }
+  for (const auto [x, y] : test::cells(260, 240)) {
+    const double r = bed_cell_m * std::hypot(x - 110, y - 120);
+    const bool river = x > 110 && std::abs(y - 120) <= 3;
+    ground.water(x, y) = r <= 795.0 || river ? 1 : 0;
+    ground.dem.altitude_m(x, y) =
+        ground.water(x, y) != 0 ? 500.F : static_cast<float>(500.0 + slope * (r - 795.0));
+  }
   return ground;
 }
 
@@ -86,17 +85,15 @@ TEST(WaterBeds, LevelsStayAndWindowsAgree) {
   part.dem.filled = Grid<std::uint8_t>(120, 200, 0);
   part.dem.transform = {0.0, 0.0, bed_cell_m, bed_cell_m};
   part.water = Grid<std::uint8_t>(120, 200, 0);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 120; ++x) {
-      part.dem.altitude_m(x, y) = g.dem.altitude_m(x, y + 20);
-      part.water(x, y) = g.water(x, y + 20);
-    }
+  for (const auto [x, y] : test::cells(120, 200)) {
+    part.dem.altitude_m(x, y) = g.dem.altitude_m(x, y + 20);
+    part.water(x, y) = g.water(x, y + 20);
+  }
   const WaterBeds window = make_water_beds(part.water, part.dem);
-  for (int y = 70; y < 130; ++y)
-    for (int x = 10; x < 60; ++x) {
-      ASSERT_EQ(window.depth_m(x, y), whole.depth_m(x, y + 20));
-      ASSERT_EQ(window.lake(x, y), whole.lake(x, y + 20));
-    }
+  for (const auto [x, y] : test::cells({10, 70, 60, 130})) {
+    ASSERT_EQ(window.depth_m(x, y), whole.depth_m(x, y + 20));
+    ASSERT_EQ(window.lake(x, y), whole.lake(x, y + 20));
+  }
 }
 
 TEST(WaterBeds, OceansWithoutAShoreAreDeepAndSizesMustAgree) {

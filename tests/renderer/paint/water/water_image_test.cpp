@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/common.hpp>
 #include <limits>
 
 #include "base/error.h"
@@ -11,6 +10,7 @@
 #include "renderer/paint/base_picture.h"
 #include "renderer/paint/palette.h"
 #include "renderer/paint/sky.h"
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {
@@ -50,11 +50,10 @@ struct FarLake {
     sight.altitude_m = Grid<float>(width, height, 1000.0F);
     sight.normal = Grid<glm::vec3>(width, height, glm::vec3(0.0F, 0.0F, 1.0F));
     sight.shadow = Grid<float>(width, height, 1.0F);
-    for (int y = 0; y < height / 2; ++y)
-      for (int x = 0; x < width; ++x) {
-        sight.path_m(x, y) = 400.0F;
-        sight.land_cover(x, y) = LandCoverClass::forest;
-      }
+    for (const auto [x, y] : test::cells(width, height / 2)) {
+      sight.path_m(x, y) = 400.0F;
+      sight.land_cover(x, y) = LandCoverClass::forest;
+    }
   }
   WaterImage paint(PixelRect wanted = {0, 0, width, height}) const {
     return paint_water_image(sight, {0, 0, width, height}, guidance, palette, parameters, wanted);
@@ -86,8 +85,7 @@ TEST(WaterImage, TheImageOfAShadyBankIsDarker) {
 
 TEST(WaterImage, FarThingsStandInTheAirOfTheWholeWay) {
   FarLake far;
-  for (int y = 0; y < height / 2; ++y)
-    for (int x = 0; x < width; ++x) far.sight.path_m(x, y) = 80000.0F;
+  for (const auto [x, y] : test::cells(width, height / 2)) far.sight.path_m(x, y) = 80000.0F;
   const glm::vec3 near_wood = FarLake().paint().colour(4, 10);
   const glm::vec3 far_wood = far.paint().colour(4, 10);
   EXPECT_GT(far_wood.b, near_wood.b + 0.1F);
@@ -98,8 +96,7 @@ TEST(WaterImage, FarThingsStandInTheAirOfTheWholeWay) {
 TEST(WaterImage, IsDrawnOutDownwardsByWhatLiesFarFromTheWater) {
   FarLake lake;
   const auto border_rows = [&](float path_m) {
-    for (int y = 0; y < height / 2; ++y)
-      for (int x = 0; x < width; ++x) lake.sight.path_m(x, y) = path_m;
+    for (const auto [x, y] : test::cells(width, height / 2)) lake.sight.path_m(x, y) = path_m;
     const WaterImage image = lake.paint();
     int mixed = 0;
     for (int y = 0; y < height / 2; ++y) mixed += image.land(4, y) < 0.999F ? 1 : 0;
@@ -113,11 +110,10 @@ TEST(WaterImage, IsDrawnOutDownwardsByWhatLiesFarFromTheWater) {
 
 TEST(WaterImage, APartIsThatOfTheWhole) {
   FarLake lake;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      if (x == 3 && y % 7 == 0) lake.guidance.land_cover(x, y) = LandCoverClass::pasture;
-      lake.sight.path_m(x, y) += static_cast<float>((x * 37 + y * 91) % 700);
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    if (x == 3 && y % 7 == 0) lake.guidance.land_cover(x, y) = LandCoverClass::pasture;
+    lake.sight.path_m(x, y) += static_cast<float>((x * 37 + y * 91) % 700);
+  }
   const WaterImage whole = lake.paint();
   const PixelRect wanted{2, 60, 9, 90};
   const int margin = water_image_margin_px(1.0);
@@ -152,11 +148,10 @@ TEST(WaterImage, StrengthIsTheScenes) {
 // Forest in shade down to row 60, a lake in rows 60…109, meadow below it.
 GuidanceBuffers lake() {
   GuidanceBuffers g = test::make_slope(80, 140, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 20.0F);
-  for (int y = 0; y < 140; ++y)
-    for (int x = 0; x < 80; ++x) {
-      g.tone(x, y) = y < 60 ? 0.2F : 0.6F;
-      if (y >= 60) g.land_cover(x, y) = y < 110 ? LandCoverClass::water : LandCoverClass::pasture;
-    }
+  for (const auto [x, y] : test::cells(80, 140)) {
+    g.tone(x, y) = y < 60 ? 0.2F : 0.6F;
+    if (y >= 60) g.land_cover(x, y) = y < 110 ? LandCoverClass::water : LandCoverClass::pasture;
+  }
   return g;
 }
 
@@ -175,8 +170,8 @@ TEST(Reflection, ShowsTheFarShoreUpsideDown) {
 
 TEST(Reflection, IsNotOfWhatStandsBeforeTheWater) {
   GuidanceBuffers g = lake();
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 80; ++x) g.depth_m(x, y) = 12000.0F;  // a crag nearer than the lake
+  for (const auto [x, y] : test::cells(80, 60))
+    g.depth_m(x, y) = 12000.0F;  // a crag nearer than the lake
   const Mirrored m = find_reflections(g, 1.0);
   for (int y = 60; y < 110; ++y) EXPECT_EQ(m.source(40, y), -1);
 }
@@ -198,11 +193,10 @@ TEST(Reflection, DarkensTheWaterBelowADarkShore) {
 
 TEST(Reflection, IsOfTheSlopeBehindALevelMeadow) {
   GuidanceBuffers g = lake();
-  for (int y = 50; y < 60; ++y)
-    for (int x = 0; x < 80; ++x) {
-      g.land_cover(x, y) = LandCoverClass::pasture;
-      g.slope_deg(x, y) = 1.0F;
-    }
+  for (const auto [x, y] : test::cells({0, 50, 80, 60})) {
+    g.land_cover(x, y) = LandCoverClass::pasture;
+    g.slope_deg(x, y) = 1.0F;
+  }
   const Mirrored m = find_reflections(g, 1.0);
   EXPECT_EQ(m.source(40, 67), g.depth_m.index(40, 49 - 10));
   EXPECT_LT(m.share(40, 62), find_reflections(lake(), 1.0).share(40, 62));
@@ -246,17 +240,16 @@ TEST(Reflection, PartEqualsWhole) {
   const PixelRect part = test::with_margin(rect, margin, 300, 260);
   const Mirrored some = find_reflections(test::cut(whole, part), 1.0);
   int water = 0;
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x) {
-      ASSERT_EQ(some.share(x - part.x0, y - part.y0), all.share(x, y));
-      ASSERT_EQ(some.to_far(x - part.x0, y - part.y0), all.to_far(x, y));
-      ASSERT_EQ(some.to_near(x - part.x0, y - part.y0), all.to_near(x, y));
-      if (all.source(x, y) < 0) continue;
-      ++water;
-      const int source_x = all.source(x, y) % 300 - part.x0;
-      const int source_y = all.source(x, y) / 300 - part.y0;
-      ASSERT_EQ(some.source(x - part.x0, y - part.y0), source_y * part.width() + source_x);
-    }
+  for (const auto [x, y] : test::cells(rect)) {
+    ASSERT_EQ(some.share(x - part.x0, y - part.y0), all.share(x, y));
+    ASSERT_EQ(some.to_far(x - part.x0, y - part.y0), all.to_far(x, y));
+    ASSERT_EQ(some.to_near(x - part.x0, y - part.y0), all.to_near(x, y));
+    if (all.source(x, y) < 0) continue;
+    ++water;
+    const int source_x = all.source(x, y) % 300 - part.x0;
+    const int source_y = all.source(x, y) / 300 - part.y0;
+    ASSERT_EQ(some.source(x - part.x0, y - part.y0), source_y * part.width() + source_x);
+  }
   EXPECT_GT(water, 0);
 }
 

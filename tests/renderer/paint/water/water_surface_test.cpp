@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/colour/water_colour.h"
+#include "tests/grids.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "tests/renderer/paint/water/no_noise.h"
 
@@ -133,8 +134,8 @@ TerrainModel lake(int size, GroundColour colour = GroundColour(170, 150, 110, 25
   LandCover cover{{Grid<LandCoverClass>(size, size, LandCoverClass::water), transform, ""},
                   {Grid<GroundColour>(size, size, colour), transform, ""},
                   {transform, {}, Grid<float>(size, size)}};
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) cover.relief.lake_depth_m(x, y) = static_cast<float>(x);
+  for (const auto [x, y] : test::cells(size, size))
+    cover.relief.lake_depth_m(x, y) = static_cast<float>(x);
   model.land_cover = std::make_shared<const LandCover>(std::move(cover));
   return model;
 }
@@ -208,16 +209,15 @@ TEST(LakeIce, IsPaleBlueGreyUnderDriftsOfSnow) {
   const glm::vec3 snow = palette_colour(palette, LandCoverClass::snow, 900.0, 0.6);
   float darkest = 1.0F;
   float lightest = 0.0F;
-  for (int y = 0; y < 100; ++y)
-    for (int x = 0; x < 100; ++x) {
-      const glm::vec3 colour =
-          ice.colour(palette, 900.0, 0.6, {60.0 * x, 60.0 * y, 900.0}, 30.0F, 10.0F);
-      EXPECT_GE(colour.b, colour.r - 0.12F);
-      for (int c = 0; c < 3; ++c)
-        ASSERT_LE(colour[c], snow[c] + 1e-5F) << "no ice is whiter than snow";
-      darkest = std::min(darkest, colour.r);
-      lightest = std::max(lightest, colour.r);
-    }
+  for (const auto [x, y] : test::cells(100, 100)) {
+    const glm::vec3 colour =
+        ice.colour(palette, 900.0, 0.6, {60.0 * x, 60.0 * y, 900.0}, 30.0F, 10.0F);
+    EXPECT_GE(colour.b, colour.r - 0.12F);
+    for (int c = 0; c < 3; ++c)
+      ASSERT_LE(colour[c], snow[c] + 1e-5F) << "no ice is whiter than snow";
+    darkest = std::min(darkest, colour.r);
+    lightest = std::max(lightest, colour.r);
+  }
   EXPECT_GT(lightest, 0.95F * snow.r);
   EXPECT_LT(darkest, 0.88F * snow.r);
   EXPECT_GT(darkest, 0.45F * snow.r);
@@ -248,9 +248,8 @@ TEST(LakeIce, LakesFreezeInWinterAboveTheirAltitude) {
 double ruffled_share(std::uint64_t seed, float strength) {
   WaterWind wind(seed);
   double sum = 0.0;
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x)
-      sum += static_cast<double>(wind.ruffled({200.0 * x, 200.0 * y, 900.0}, 10.0F, strength));
+  for (const auto [x, y] : test::cells(200, 200))
+    sum += static_cast<double>(wind.ruffled({200.0 * x, 200.0 * y, 900.0}, 10.0F, strength));
   return sum / 40000.0;
 }
 

@@ -1,6 +1,5 @@
 #include "renderer/scene/edit/scene_edit.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include "tests/grids.h"
 #include "tests/renderer/style/synthetic_painting.h"
 
 namespace belvedere {
@@ -96,16 +95,15 @@ TEST(FitClassRamps, SeesTheClassesOfTheMaskInTheirHues) {
 TEST(FitClassRamps, WarmWaterIsCooled) {
   Grid<glm::vec3> picture(120, 90);
   Grid<std::uint8_t> mask(120, 90);
-  for (int y = 0; y < 90; ++y)
-    for (int x = 0; x < 120; ++x) {
-      const bool lake = y < 30;
-      const bool blue = y >= 55;
-      mask(x, y) = blue ? std::uint8_t{255} : test::label_of(lake ? water : pasture);
-      const double light = 0.45 + 0.2 * (x % 40) / 39.0;
-      picture(x, y) = lake   ? from_oklab({light, 0.01, 0.04})
-                      : blue ? from_oklab({light, -0.02, -0.07})
-                             : from_oklab({light, 0.0, 0.09});
-    }
+  for (const auto [x, y] : test::cells(120, 90)) {
+    const bool lake = y < 30;
+    const bool blue = y >= 55;
+    mask(x, y) = blue ? std::uint8_t{255} : test::label_of(lake ? water : pasture);
+    const double light = 0.45 + 0.2 * (x % 40) / 39.0;
+    picture(x, y) = lake   ? from_oklab({light, 0.01, 0.04})
+                    : blue ? from_oklab({light, -0.02, -0.07})
+                           : from_oklab({light, 0.0, 0.09});
+  }
   const StylePainting painting = prepare_painting(picture, mask);
   const SeenRamps seen =
       fit_class_ramps(painting, fit_light_law(painting), palette_ramps(read_palette("summer")));
@@ -117,13 +115,12 @@ TEST(FitClassRamps, WarmWaterIsCooled) {
 TEST(FitClassRamps, RockInLightHasTheHueOfLightWhereLightRulesHue) {
   Grid<glm::vec3> picture(120, 90);
   Grid<std::uint8_t> mask(120, 90);
-  for (int y = 0; y < 90; ++y)
-    for (int x = 0; x < 120; ++x) {
-      const bool shade = y < 45;
-      mask(x, y) = test::label_of(shade ? rock : pasture);
-      const double light = (shade ? 0.40 : 0.65) + 0.2 * (x % 40) / 39.0;
-      picture(x, y) = from_oklab({light, 0.01, shade ? -0.06 : 0.07});
-    }
+  for (const auto [x, y] : test::cells(120, 90)) {
+    const bool shade = y < 45;
+    mask(x, y) = test::label_of(shade ? rock : pasture);
+    const double light = (shade ? 0.40 : 0.65) + 0.2 * (x % 40) / 39.0;
+    picture(x, y) = from_oklab({light, 0.01, shade ? -0.06 : 0.07});
+  }
   const StylePainting painting = prepare_painting(picture, mask);
   const LightLaw law = fit_light_law(painting);
   ASSERT_EQ(law.by_tone(rock), 1.0);
@@ -140,13 +137,12 @@ using enum LandCoverClass;
 StylePainting two_classes(bool by_light) {
   Grid<glm::vec3> picture(128, 120);
   Grid<std::uint8_t> mask(128, 120);
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 128; ++x) {
-      mask(x, y) = test::label_of(x < 64 ? rock : pasture);
-      const double light = 0.3 + 0.5 * (x % 64) / 63.0;
-      const double a = by_light ? 0.2 * (light - 0.55) : x < 64 ? 0.04 : -0.04;
-      picture(x, y) = from_oklab({light, a, 0.0});
-    }
+  for (const auto [x, y] : test::cells(128, 120)) {
+    mask(x, y) = test::label_of(x < 64 ? rock : pasture);
+    const double light = 0.3 + 0.5 * (x % 64) / 63.0;
+    const double a = by_light ? 0.2 * (light - 0.55) : x < 64 ? 0.04 : -0.04;
+    picture(x, y) = from_oklab({light, a, 0.0});
+  }
   CleanMaskParameters parameters;
   parameters.nearer = 0.0;  // keeps both classes whole
   return prepare_painting(picture, mask, parameters);

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "tests/grids.h"
 #include "tests/renderer/style/synthetic_painting.h"
 #include "texture/synthesis/exemplar.h"
 
@@ -42,9 +43,8 @@ TEST(FitBrushwork, SteadinessTellsOnWhatScaleStrokesOfASkyTurn) {
   // Squares of 40 px, alternately level and upright.
   const Grid<glm::vec3> level = test::thrown_strokes(240, 200, 15.0, 4.0, 0.0);
   Grid<glm::vec3> turning = test::thrown_strokes(240, 200, 15.0, 4.0, 0.5 * std::numbers::pi);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 240; ++x)
-      if ((x / 40 + y / 40) % 2 == 0) turning(x, y) = level(x, y);
+  for (const auto [x, y] : test::cells(240, 200))
+    if ((x / 40 + y / 40) % 2 == 0) turning(x, y) = level(x, y);
   const StyleBrushwork swirls = sky_of(turning);
   EXPECT_GT(swirls.steadiness[0], 0.6);
   EXPECT_LT(swirls.steadiness[2], 0.25);
@@ -66,9 +66,8 @@ TEST(FitBrushwork, FormIsTheAgreementWithLargerForms) {
       test::thrown_strokes(240, 200, 12.0, 3.0, 0.5 * std::numbers::pi, 0.6, 0.06);
   Grid<glm::vec3> across = test::thrown_strokes(240, 200, 12.0, 3.0, 0.0, 0.6, 0.06);
   for (Grid<glm::vec3>* lab : {&along, &across})
-    for (int y = 0; y < 200; ++y)
-      for (int x = 0; x < 240; ++x)
-        (*lab)(x, y).x += 0.12F * static_cast<float>(std::sin(2.0 * std::numbers::pi * x / 60.0));
+    for (const auto [x, y] : test::cells(240, 200))
+      (*lab)(x, y).x += 0.12F * static_cast<float>(std::sin(2.0 * std::numbers::pi * x / 60.0));
   EXPECT_GT(rock_brushwork(along).form, 0.8);
   EXPECT_LT(rock_brushwork(across).form, -0.3);
 }
@@ -92,8 +91,8 @@ TEST(FitBrushwork, ResidualsHaveTheSpreadOfTheStrokesAndNoMean) {
 
 TEST(FitBrushwork, AccentsAreTheMostColourful) {
   Grid<glm::vec3> lab = test::thrown_strokes(120, 100, 10.0, 4.0, 0.0);
-  for (int y = 40; y < 64; ++y)
-    for (int x = 40; x < 70; ++x) lab(x, y) = {0.6F, 0.15F, 0.10F};  // 6 % of it
+  for (const auto [x, y] : test::cells({40, 40, 70, 64}))
+    lab(x, y) = {0.6F, 0.15F, 0.10F};  // 6 % of it
   const StyleBrushwork b = rock_brushwork(lab);
   ASSERT_EQ(b.accents.size(), 16U);
   for (const glm::vec3& accent : b.accents) EXPECT_GT(accent.y, 0.1F);

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "tests/grids.h"
 #include "tests/renderer/style/synthetic_painting.h"
 #include "texture/synthesis/exemplar.h"
 
@@ -16,13 +17,11 @@ const glm::vec3 second_axis(0.0F, 0.02F, 0.0F);
 // A gradient of lightness and two noises along different axes.
 Grid<glm::vec3> noisy_sky(int width, int height, double sigma_x, double sigma_y) {
   Grid<glm::vec3> lab(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      lab(x, y) = {0.6F + 0.2F * static_cast<float>(y) / static_cast<float>(height), -0.02F,
-                   -0.06F};
-      lab(x, y) += static_cast<float>(gaussian_noise(1, x, y, sigma_x, sigma_y)) * first_axis +
-                   static_cast<float>(gaussian_noise(2, x, y, sigma_x, sigma_y)) * second_axis;
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    lab(x, y) = {0.6F + 0.2F * static_cast<float>(y) / static_cast<float>(height), -0.02F, -0.06F};
+    lab(x, y) += static_cast<float>(gaussian_noise(1, x, y, sigma_x, sigma_y)) * first_axis +
+                 static_cast<float>(gaussian_noise(2, x, y, sigma_x, sigma_y)) * second_axis;
+  }
   return lab;
 }
 
@@ -50,18 +49,15 @@ TEST(FitSky, FindsTheAxesOfTwoNoisesTheirSpreadAndLengths) {
 
 TEST(FitSky, MediansAreThoseOfTheCells) {
   Grid<glm::vec3> lab(90, 100);
-  for (int y = 0; y < 100; ++y)
-    for (int x = 0; x < 90; ++x)
-      lab(x, y) = {0.5F + 0.02F * static_cast<float>(y / 20), 0.01F * static_cast<float>(x / 30),
-                   0};
+  for (const auto [x, y] : test::cells(90, 100))
+    lab(x, y) = {0.5F + 0.02F * static_cast<float>(y / 20), 0.01F * static_cast<float>(x / 30), 0};
   const FittedSky fitted = fit_sky(lab, Grid<std::uint8_t>(90, 100, 0));
   ASSERT_EQ(fitted.sky.medians.width(), 3);
   ASSERT_EQ(fitted.sky.medians.height(), 5);
-  for (int j = 0; j < 5; ++j)
-    for (int i = 0; i < 3; ++i) {
-      EXPECT_NEAR(fitted.sky.medians(i, j).x, 0.5F + 0.02F * static_cast<float>(j), 1e-6F);
-      EXPECT_NEAR(fitted.sky.medians(i, j).y, 0.01F * static_cast<float>(i), 1e-6F);
-    }
+  for (const auto [i, j] : test::cells(3, 5)) {
+    EXPECT_NEAR(fitted.sky.medians(i, j).x, 0.5F + 0.02F * static_cast<float>(j), 1e-6F);
+    EXPECT_NEAR(fitted.sky.medians(i, j).y, 0.01F * static_cast<float>(i), 1e-6F);
+  }
   ASSERT_EQ(fitted.gradient.size(), 5U);
   EXPECT_NEAR(fitted.gradient[4].x, 0.58, 1e-6);
   EXPECT_GT(fitted.cloud_light.x, fitted.cloud_shade.x);
@@ -82,12 +78,11 @@ TEST(FitSky, StreaksAreTheDeviationsOfTheFinerScales) {
 // Saw teeth of lightness: steep on one side.
 Grid<glm::vec3> saw_sky(bool steep_above) {
   Grid<glm::vec3> lab(400, 200);
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 400; ++x) {
-      const double place = (y + 20.0 * gaussian_noise(4, x, 0, 30.0, 30.0)) / 50.0;
-      const double t = place - std::floor(place);  // grows downwards
-      lab(x, y) = {0.6F + 0.2F * static_cast<float>(steep_above ? 1.0 - t : t), 0.0F, 0.0F};
-    }
+  for (const auto [x, y] : test::cells(400, 200)) {
+    const double place = (y + 20.0 * gaussian_noise(4, x, 0, 30.0, 30.0)) / 50.0;
+    const double t = place - std::floor(place);  // grows downwards
+    lab(x, y) = {0.6F + 0.2F * static_cast<float>(steep_above ? 1.0 - t : t), 0.0F, 0.0F};
+  }
   return lab;
 }
 
@@ -102,9 +97,8 @@ TEST(FitSky, UpperEdgesTellOnWhichSideCloudsAreSteep) {
 
 TEST(FitSky, TheClearSkyIsTheBluestPartAndItsShare) {
   Grid<glm::vec3> lab(400, 200, glm::vec3(0.8F, 0.0F, 0.0F));
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 400; ++x)
-      if (x % 100 < 20) lab(x, y) = {0.7F, 0.0F, -0.08F};  // a fifth
+  for (const auto [x, y] : test::cells(400, 200))
+    if (x % 100 < 20) lab(x, y) = {0.7F, 0.0F, -0.08F};  // a fifth
   const StyleSky sky = fit_sky(lab, Grid<std::uint8_t>(400, 200, 0)).sky;
   EXPECT_NEAR(sky.clear.x, -0.1, 0.01);
   EXPECT_NEAR(sky.clear.z, -0.08, 0.01);
@@ -116,11 +110,10 @@ TEST(FitSky, TheClearSkyIsTheBluestPartAndItsShare) {
 TEST(FitSky, CellsBehindMountainsTakeTheirRow) {
   Grid<glm::vec3> lab(90, 100, glm::vec3(0.7F, 0.0F, -0.05F));
   Grid<std::uint8_t> mask(90, 100, 0);
-  for (int y = 60; y < 100; ++y)
-    for (int x = 0; x < 60; ++x) {
-      mask(x, y) = test::label_of(LandCoverClass::rock);
-      lab(x, y) = {0.3F, 0.0F, 0.0F};
-    }
+  for (const auto [x, y] : test::cells({0, 60, 60, 100})) {
+    mask(x, y) = test::label_of(LandCoverClass::rock);
+    lab(x, y) = {0.3F, 0.0F, 0.0F};
+  }
   for (const glm::vec3& median : fit_sky(lab, mask).sky.medians) EXPECT_NEAR(median.x, 0.7F, 1e-6F);
 }
 

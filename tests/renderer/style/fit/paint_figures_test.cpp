@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/renderer/style/synthetic_painting.h"
 
 namespace belvedere {
@@ -23,8 +24,7 @@ Grid<glm::vec3> encoded(const Grid<glm::vec3>& lab) {
 template <class F>
 StylePainting all_rock(int width, int height, F f) {
   Grid<glm::vec3> lab(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) lab(x, y) = f(x, y);
+  for (const auto [x, y] : test::cells(width, height)) lab(x, y) = f(x, y);
   return prepare_painting(encoded(lab), Grid<std::uint8_t>(width, height, test::label_of(rock)));
 }
 

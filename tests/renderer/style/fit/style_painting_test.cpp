@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/grids.h"
 #include "tests/renderer/style/synthetic_painting.h"
 #include "texture/synthesis/exemplar.h"
 
@@ -15,13 +16,12 @@ using test::label_of;
 TEST(CleanMask, LeavesOutWhatLooksLikeAnotherClass) {
   Grid<glm::vec3> lab(120, 80);
   Grid<std::uint8_t> drawn(120, 80);
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 120; ++x) {
-      drawn(x, y) = label_of(x < 80 ? rock : snow);
-      const bool white = x >= 80 || (x >= 20 && x < 40 && y >= 20 && y < 52);
-      lab(x, y) = white ? glm::vec3(0.9F, 0.0F, 0.0F) : glm::vec3(0.5F, 0.02F, 0.04F);
-      lab(x, y).x += 0.03F * static_cast<float>(random_uniform(3, x, y));
-    }
+  for (const auto [x, y] : test::cells(120, 80)) {
+    drawn(x, y) = label_of(x < 80 ? rock : snow);
+    const bool white = x >= 80 || (x >= 20 && x < 40 && y >= 20 && y < 52);
+    lab(x, y) = white ? glm::vec3(0.9F, 0.0F, 0.0F) : glm::vec3(0.5F, 0.02F, 0.04F);
+    lab(x, y).x += 0.03F * static_cast<float>(random_uniform(3, x, y));
+  }
   const Grid<std::uint8_t> clean = clean_mask(lab, drawn);
   EXPECT_EQ(clean(30, 36), unused_label);
   EXPECT_EQ(clean(60, 40), label_of(rock));
@@ -32,13 +32,12 @@ TEST(CleanMask, LeavesOutWhatLooksLikeAnotherClass) {
 TEST(CleanMask, KeepsWhatIsOnlyUnlikeTheRestOfItsClass) {
   Grid<glm::vec3> lab(120, 80);
   Grid<std::uint8_t> drawn(120, 80);
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < 120; ++x) {
-      drawn(x, y) = label_of(x < 80 ? rock : forest);
-      lab(x, y) = x < 40   ? glm::vec3(0.6F, 0.0F, 0.0F)
-                  : x < 80 ? glm::vec3(0.6F, 0.02F, 0.10F)
-                           : glm::vec3(0.3F, -0.05F, 0.05F);
-    }
+  for (const auto [x, y] : test::cells(120, 80)) {
+    drawn(x, y) = label_of(x < 80 ? rock : forest);
+    lab(x, y) = x < 40   ? glm::vec3(0.6F, 0.0F, 0.0F)
+                : x < 80 ? glm::vec3(0.6F, 0.02F, 0.10F)
+                         : glm::vec3(0.3F, -0.05F, 0.05F);
+  }
   EXPECT_EQ(clean_mask(lab, drawn), drawn);
 }
 

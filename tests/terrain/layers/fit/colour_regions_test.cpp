@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -45,11 +46,10 @@ grey = true
 // and paper.
 TEST(ColourRegions, MayBePaintedOverAPictureOfThePlane) {
   Grid<glm::vec3> plane(100, 100, glm::vec3(1.F));
-  for (int y = 0; y < 100; ++y)
-    for (int x = 0; x < 100; ++x) {
-      if (x >= 50) plane(x, y) = {0.97F, 0.02F, 0.F};  // a painter's red is not exact
-      if (x < 49 && y < 50) plane(x, y) = {0.F, 1.F, 0.F};
-    }
+  for (const auto [x, y] : test::cells(100, 100)) {
+    if (x >= 50) plane(x, y) = {0.97F, 0.02F, 0.F};  // a painter's red is not exact
+    if (x < 49 && y < 50) plane(x, y) = {0.F, 1.F, 0.F};
+  }
   std::string asked;
   const auto read = [&](const std::string& path) {
     asked = path;

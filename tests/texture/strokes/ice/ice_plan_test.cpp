@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 #include "texture/strokes/ice/ice_ground.h"
 #include "texture/strokes/stroke_parts.h"
@@ -28,14 +29,13 @@ Picture valley(double pixels_per_unit) {
   p.guidance.depth_m = Grid<float>(width, height, 8000.F);
   p.guidance.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.28F, 0.96F));
   p.guidance.relief_s_m = Grid<float>(width, height, 25.F);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const double u = x / pixels_per_unit;
-      const double v = y / pixels_per_unit;
-      if (u < 100.0) p.guidance.land_cover(x, y) = snow;
-      if (u >= 150.0 && u < 166.0 && v < 120.0) p.guidance.land_cover(x, y) = rock;
-      p.guidance.slope_deg(x, y) = u < 100.0 ? 42.F : 14.F;
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    const double u = x / pixels_per_unit;
+    const double v = y / pixels_per_unit;
+    if (u < 100.0) p.guidance.land_cover(x, y) = snow;
+    if (u >= 150.0 && u < 166.0 && v < 120.0) p.guidance.land_cover(x, y) = rock;
+    p.guidance.slope_deg(x, y) = u < 100.0 ? 42.F : 14.F;
+  }
   return p;
 }
 
@@ -87,9 +87,8 @@ TEST(IcePlan, TonguesAreTornAndFirnIsWhole) {
     p.guidance.depth_m = Grid<float>(420, 420, 8000.F);
     p.guidance.slope_deg = Grid<float>(420, 420, 20.F);
     p.guidance.relief_s_m = Grid<float>(420, 420, 10.F);
-    for (int y = 0; y < 420; ++y)
-      for (int x = 0; x < 420; ++x)
-        if (x % 70 < 20) p.guidance.land_cover(x, y) = beside;
+    for (const auto [x, y] : test::cells(420, 420))
+      if (x % 70 < 20) p.guidance.land_cover(x, y) = beside;
     std::size_t ways = 0;
     over_seeds(p, [&] { ways += ways_of(plan_ice(p.guidance, p.parameters), stream).size(); });
     return ways;
@@ -156,17 +155,15 @@ TEST(Moraines, JoinAndWiden) {
   p.guidance.depth_m = Grid<float>(400, 500, 8000.F);
   p.guidance.slope_deg = Grid<float>(400, 500, 10.F);
   const auto rib = [&](int x0, int x1, int y1) {
-    for (int y = 0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) p.guidance.land_cover(x, y) = rock;
+    for (const auto [x, y] : test::cells({x0, 0, x1, y1})) p.guidance.land_cover(x, y) = rock;
   };
   rib(140, 152, 80);
   rib(250, 262, 120);
   // Both streams turn to the middle.
-  for (int y = 0; y < 500; ++y)
-    for (int x = 0; x < 400; ++x) {
-      const float aside = std::clamp((200.F - static_cast<float>(x)) / 50.F, -1.F, 1.F);
-      p.guidance.fall_line(x, y) = glm::normalize(glm::vec2(0.6F * aside, 1.F));
-    }
+  for (const auto [x, y] : test::cells(400, 500)) {
+    const float aside = std::clamp((200.F - static_cast<float>(x)) / 50.F, -1.F, 1.F);
+    p.guidance.fall_line(x, y) = glm::normalize(glm::vec2(0.6F * aside, 1.F));
+  }
   const std::vector<IceWay> ways =
       ways_of(plan_ice(p.guidance, p.parameters), Stream::glacier_moraines);
   ASSERT_GE(ways.size(), 2U);
@@ -185,10 +182,9 @@ TEST(Moraines, JoinAndWiden) {
 TEST(IceGround, AcrossTheFlowIsForeshortened) {
   Picture p = plain_picture(glacier, 60, 60);
   p.guidance.depth_m = Grid<float>(60, 60, 8000.F);
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 60; ++x)
-      p.guidance.position_m(x, y) =
-          glm::vec3(30.F * static_cast<float>(x), -60.F * static_cast<float>(y), 900.F);
+  for (const auto [x, y] : test::cells(60, 60))
+    p.guidance.position_m(x, y) =
+        glm::vec3(30.F * static_cast<float>(x), -60.F * static_cast<float>(y), 900.F);
   const StrokeScene scene = p.scene();
   const glm::vec2 down = across_flow(scene, {30.F, 30.F}, {0.F, 1.F});
   EXPECT_NEAR(std::abs(down.x), 1.F, 1e-3F);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <set>
 
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/texture/strokes/stroke_picture.h"
 #include "texture/strokes/ice/ice_ground.h"
 #include "texture/strokes/stroke_painter.h"
@@ -20,13 +20,12 @@ using enum LandCoverClass;
 Picture one_class(LandCoverClass id, float slope_deg, int width = 320, int height = 240) {
   Picture p = plain_picture(id, width, height);
   p.guidance.slope_deg = Grid<float>(width, height, slope_deg);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      p.guidance.depth_m(x, y) =
-          22000.F - 2000.F * static_cast<float>(y) / static_cast<float>(height);
-      p.guidance.position_m(x, y) =
-          glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 2900.F);
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    p.guidance.depth_m(x, y) =
+        22000.F - 2000.F * static_cast<float>(y) / static_cast<float>(height);
+    p.guidance.position_m(x, y) =
+        glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 2900.F);
+  }
   p.ground.tree_density = Grid<float>(width, height, 0.F);
   return p;
 }
@@ -36,29 +35,26 @@ void set_flow(Picture& p, glm::vec2 flow) {
 }
 
 void set_class(Picture& p, int x0, int y0, int x1, int y1, LandCoverClass id) {
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) p.guidance.land_cover(x, y) = id;
+  for (const auto [x, y] : test::cells({x0, y0, x1, y1})) p.guidance.land_cover(x, y) = id;
 }
 
 // Fall lines that turn by up to ±60° from pixel to pixel: ice over them keeps its direction within
 // a few degrees.
 TEST(IceFlow, FollowsTheBroadFallOfItsBed) {
   Picture p = one_class(glacier, 12.F);
-  for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 320; ++x) {
-      const double turn = 2.1 * (random_uniform(5, x, y) - 0.5);
-      p.guidance.fall_line(x, y) = glm::vec2(std::sin(0.5 + turn), std::cos(0.5 + turn));
-    }
+  for (const auto [x, y] : test::cells(320, 240)) {
+    const double turn = 2.1 * (random_uniform(5, x, y) - 0.5);
+    p.guidance.fall_line(x, y) = glm::vec2(std::sin(0.5 + turn), std::cos(0.5 + turn));
+  }
   const StrokeParameters parameters;
   const StrokeScene scene{p.guidance, p.ground, parameters};
   const IceFlow flow = find_ice_flow(scene);
   const glm::vec2 mean(std::sin(0.5F), std::cos(0.5F));
-  for (int y = 20; y < 220; y += 10)
-    for (int x = 20; x < 300; x += 10) {
-      const glm::vec2 at = flow.at({static_cast<float>(x), static_cast<float>(y)});
-      EXPECT_NEAR(glm::length(at), 1.F, 1e-5F);
-      EXPECT_LT(angle_deg(at, mean), 6.0) << x << ", " << y;
-    }
+  for (const auto [x, y] : test::cells({20, 20, 300, 220}, 10)) {
+    const glm::vec2 at = flow.at({static_cast<float>(x), static_cast<float>(y)});
+    EXPECT_NEAR(glm::length(at), 1.F, 1e-5F);
+    EXPECT_LT(angle_deg(at, mean), 6.0) << x << ", " << y;
+  }
   for (const Stroke& s : grow_strokes("snow", scene)) {
     if (std::abs(s.points[1].x - 160.F) > 90.F || std::abs(s.points[1].y - 120.F) > 60.F) continue;
     EXPECT_LT(angle_deg(axis_of(s), mean), 14.0);
@@ -68,10 +64,9 @@ TEST(IceFlow, FollowsTheBroadFallOfItsBed) {
 // Round a bend of the valley, strokes bend with it, and a trace stays on its circle.
 TEST(IceFlow, TurnsWithTheValley) {
   Picture p = one_class(glacier, 12.F);
-  for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 320; ++x)
-      p.guidance.fall_line(x, y) =
-          glm::normalize(glm::vec2(static_cast<float>(y) + 20.F, -static_cast<float>(x) - 0.5F));
+  for (const auto [x, y] : test::cells(320, 240))
+    p.guidance.fall_line(x, y) =
+        glm::normalize(glm::vec2(static_cast<float>(y) + 20.F, -static_cast<float>(x) - 0.5F));
   const StrokeParameters parameters;
   const StrokeScene scene{p.guidance, p.ground, parameters};
   const IceFlow flow = find_ice_flow(scene);
@@ -100,9 +95,8 @@ TEST(Ice, CrevassesLieAcrossTheFlowAndOnlyWhereIceIsTorn) {
   Picture p = one_class(glacier, 24.F);
   const glm::vec2 flow(0.6F, 0.8F);
   set_flow(p, flow);
-  for (int y = 0; y < 240; ++y)
-    for (int x = 0; x < 320; ++x)
-      p.guidance.position_m(x, y).y = -20.F * static_cast<float>(y);  // seen from above
+  for (const auto [x, y] : test::cells(320, 240))
+    p.guidance.position_m(x, y).y = -20.F * static_cast<float>(y);  // seen from above
   const StrokeParameters parameters;
   const auto torn = grow_strokes("glacier crevasses", {p.guidance, p.ground, parameters});
   EXPECT_GT(torn.size(), 100U);
@@ -228,13 +222,12 @@ TEST(Ice, CrevassesAreForeshortenedWhereIceFlowsAcrossThePicture) {
   const auto length = [](glm::vec2 flow) {
     Picture p = one_class(glacier, 20.F, 400, 400);
     // Ground seen at an angle: a unit down the picture is four times as long as one across.
-    for (int y = 0; y < 400; ++y)
-      for (int x = 0; x < 400; ++x) {
-        p.guidance.position_m(x, y) =
-            glm::vec3(10.F * static_cast<float>(x), -40.F * static_cast<float>(y), 2900.F);
-        p.guidance.footprint_m(x, y) = 10.F;
-        p.guidance.relief_s_m(x, y) = 15.F;
-      }
+    for (const auto [x, y] : test::cells(400, 400)) {
+      p.guidance.position_m(x, y) =
+          glm::vec3(10.F * static_cast<float>(x), -40.F * static_cast<float>(y), 2900.F);
+      p.guidance.footprint_m(x, y) = 10.F;
+      p.guidance.relief_s_m(x, y) = 15.F;
+    }
     set_flow(p, flow);
     double sum = 0.0;
     int count = 0;

@@ -12,6 +12,7 @@
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/tools/cli/contact/contact_scene.h"
 #include "tests/tools/program.h"
 
@@ -67,10 +68,9 @@ TEST_F(MakingOf, LeavesOutCopyingWhereNothingIsCopiedAndTakesAWidth) {
 TEST_F(MakingOf, ShowsGroundLargerThanMemory) {
   Raster<float> raster{
       Grid<float>(400, 400), {600000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
-  for (int y = 0; y < 400; ++y)
-    for (int x = 0; x < 400; ++x)
-      raster.cells(x, y) =
-          900.F + static_cast<float>((x / 20 + y / 25) % 2) * 300.F + static_cast<float>(400 - y);
+  for (const auto [x, y] : test::cells(400, 400))
+    raster.cells(x, y) =
+        900.F + static_cast<float>((x / 20 + y / 25) % 2) * 300.F + static_cast<float>(400 - y);
   write_raster(path("dem.tif"), raster);
   const std::string file =
       write("s.toml",
@@ -102,10 +102,9 @@ TEST(DrawMakingOf, LaysStepsOutInPairs) {
         {"s", "s", Grid<glm::vec3>(40, 20, glm::vec3(0.25F * static_cast<float>(i), 0.F, 1.F))});
   const Grid<glm::vec3> sheet = tools::draw_making_of(steps, 40);
   std::vector<glm::ivec2> first(3, glm::ivec2(-1));
-  for (int y = 0; y < sheet.height(); ++y)
-    for (int x = 0; x < sheet.width(); ++x)
-      for (std::size_t i = 0; i < 3; ++i)
-        if (first[i].x < 0 && sheet(x, y) == steps[i].picture(0, 0)) first[i] = {x, y};
+  for (const auto [x, y] : test::cells(sheet))
+    for (std::size_t i = 0; i < 3; ++i)
+      if (first[i].x < 0 && sheet(x, y) == steps[i].picture(0, 0)) first[i] = {x, y};
   EXPECT_EQ(first[0].y, first[1].y);
   EXPECT_GE(first[1].x, first[0].x + 40);
   EXPECT_EQ(first[2].x, first[0].x);

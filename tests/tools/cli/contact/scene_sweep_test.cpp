@@ -7,6 +7,7 @@
 
 #include "base/pixel_rect.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere::tools {
 namespace {
@@ -51,13 +52,12 @@ TEST(PictureTable, HoldsEveryPictureInItsColumnAndRow) {
   const auto found = [&](float v) {
     PixelRect box{sheet.width(), sheet.height(), 0, 0};
     int count = 0;
-    for (int y = 0; y < sheet.height(); ++y)
-      for (int x = 0; x < sheet.width(); ++x)
-        if (sheet(x, y) == glm::vec3(v, 0.F, 1.F)) {
-          box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
-                 std::max(box.y1, y + 1)};
-          ++count;
-        }
+    for (const auto [x, y] : test::cells(sheet))
+      if (sheet(x, y) == glm::vec3(v, 0.F, 1.F)) {
+        box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
+               std::max(box.y1, y + 1)};
+        ++count;
+      }
     EXPECT_EQ(count, box.width() * box.height()) << v;
     return box;
   };

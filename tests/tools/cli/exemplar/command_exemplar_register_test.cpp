@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "renderer/image/label_image.h"
 #include "terrain/io/crs.h"

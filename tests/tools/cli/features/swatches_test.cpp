@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/grids.h"
 #include "tests/paths.h"
 
 namespace belvedere::tools {
@@ -35,9 +36,8 @@ TEST(Swatches, EveryKindThatIsPaintedIsSeenAndDocumented) {
                   testing::HasSubstr("images/features/" + style.kinds[k].name + ".jpg"));
       int summer = 0;
       int winter = 0;
-      for (int y = 0; y < swatch.height(); ++y)
-        for (int x = 0; x < swatch.width(); ++x)
-          if (swatch(x, y) != ground(x, y)) ++(2 * x < swatch.width() ? summer : winter);
+      for (const auto [x, y] : test::cells(swatch))
+        if (swatch(x, y) != ground(x, y)) ++(2 * x < swatch.width() ? summer : winter);
       EXPECT_GT(summer, 150) << style.kinds[k].name;
       EXPECT_GT(winter, 150) << style.kinds[k].name;
     }

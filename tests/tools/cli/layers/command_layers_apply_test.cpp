@@ -12,6 +12,7 @@
 #include "renderer/world/scene_land_cover.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -47,8 +48,8 @@ class LayersApply : public Program {
   std::string write_ramp() const {
     Raster<float> raster{
         Grid<float>(120, 90), {680000.0, 5260000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
-    for (int y = 0; y < 90; ++y)
-      for (int x = 0; x < 120; ++x) raster.cells(x, y) = 100.F + 20.F * static_cast<float>(x);
+    for (const auto [x, y] : test::cells(120, 90))
+      raster.cells(x, y) = 100.F + 20.F * static_cast<float>(x);
     raster.cells(5, 5) = std::nanf("");
     write_raster(path("dem.tif"), raster);
     return path("dem.tif");
@@ -75,14 +76,13 @@ TEST_F(LayersApply, WritesClassesColoursAndShares) {
   const Raster<std::int32_t> classes = codes("c.tif");
   ASSERT_EQ(classes.cells.width(), 120);
   EXPECT_EQ(classes.transform, (GeoTransform{680000.0, 5260000.0, 100.0, 100.0}));
-  for (int y = 0; y < 90; ++y)
-    for (int x = 0; x < 120; ++x) {
-      const auto expected = x <= 70  ? LandCoverClass::pasture
-                            : x < 95 ? LandCoverClass::rock
-                                     : LandCoverClass::snow;
-      ASSERT_EQ(classes.cells(x, y), x == 5 && y == 5 ? -1 : static_cast<int>(expected))
-          << x << ", " << y;
-    }
+  for (const auto [x, y] : test::cells(120, 90)) {
+    const auto expected = x <= 70  ? LandCoverClass::pasture
+                          : x < 95 ? LandCoverClass::rock
+                                   : LandCoverClass::snow;
+    ASSERT_EQ(classes.cells(x, y), x == 5 && y == 5 ? -1 : static_cast<int>(expected))
+        << x << ", " << y;
+  }
   EXPECT_EQ(codes("rgb.tif", 2).cells(10, 10), 0xc0);
   EXPECT_EQ(codes("rgb.tif", 1).cells(80, 10), 0x80);
   EXPECT_EQ(codes("s.tif", 1).cells(10, 10), 255);
@@ -151,9 +151,8 @@ class LayersOfClimate : public LayersApply {
     Raster<float> raster{Grid<float>(90, 80),
                          {680000.0, 5260000.0, 30.0, 30.0},
                          crs.empty() ? crs : normalize_crs(crs)};
-    for (int y = 0; y < 80; ++y)
-      for (int x = 0; x < 90; ++x)
-        raster.cells(x, y) = 2500.F - 15.F * static_cast<float>(std::hypot(x - 45.3, y - 39.7));
+    for (const auto [x, y] : test::cells(90, 80))
+      raster.cells(x, y) = 2500.F - 15.F * static_cast<float>(std::hypot(x - 45.3, y - 39.7));
     write_raster(path("cone.tif"), raster);
     return path("cone.tif");
   }

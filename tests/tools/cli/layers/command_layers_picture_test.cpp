@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -19,8 +20,8 @@ class LayersPicture : public Program {
   void SetUp() override {
     Raster<float> raster{
         Grid<float>(60, 40), {680000.0, 5260000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
-    for (int y = 0; y < 40; ++y)
-      for (int x = 0; x < 60; ++x) raster.cells(x, y) = 100.F + 20.F * static_cast<float>(x);
+    for (const auto [x, y] : test::cells(60, 40))
+      raster.cells(x, y) = 100.F + 20.F * static_cast<float>(x);
     write_raster(path("dem.tif"), raster);
     test::write_bytes(
         path("one.layers.toml"),

@@ -7,6 +7,7 @@
 #include "renderer/image/image_io.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/renderer/compose/synthetic_region.h"
 #include "tests/scenes.h"
 
@@ -41,13 +42,12 @@ TEST(ContactSheet, HoldsEveryPictureInItsPlace) {
   EXPECT_GE(rows, 64);
   int same = 0, other = 0, dark = 0;
   const int down = (sheet.height() - 12) / 2;
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 96; ++x) {
-      same += sheet(12 + x, 12 + y) == sheet(12 + x, 12 + down + y) ? 1 : 0;
-      other += sheet(12 + x, 12 + y) == sheet(12 + 96 + 12 + x, 12 + y) ? 1 : 0;
-    }
-  for (int y = 12 + rows; y < 12 + rows + 24; ++y)
-    for (int x = 12; x < 40; ++x) dark += sheet(x, y).x < 0.3F ? 1 : 0;
+  for (const auto [x, y] : test::cells(96, 64)) {
+    same += sheet(12 + x, 12 + y) == sheet(12 + x, 12 + down + y) ? 1 : 0;
+    other += sheet(12 + x, 12 + y) == sheet(12 + 96 + 12 + x, 12 + y) ? 1 : 0;
+  }
+  for (const auto [x, y] : test::cells({12, 12 + rows, 40, 12 + rows + 24}))
+    dark += sheet(x, y).x < 0.3F ? 1 : 0;
   EXPECT_EQ(same, 96 * 64);
   EXPECT_LT(other, 96 * 64 / 2);
   EXPECT_GT(dark, 10);
@@ -58,8 +58,8 @@ TEST(ContactSheet, HoldsEveryPictureInItsPlace) {
 TEST(ContactSheet, SharedGroundIsTheGround) {
   const test::Folder folder;
   Raster<float> hills = test::synthetic_raster(20.0, test::chain, 120);
-  for (int y = 40; y < 48; ++y)
-    for (int x = 50; x < 60; ++x) hills.cells(x, y) = std::numeric_limits<float>::quiet_NaN();
+  for (const auto [x, y] : test::cells({50, 40, 60, 48}))
+    hills.cells(x, y) = std::numeric_limits<float>::quiet_NaN();
   write_raster(folder / "hills.tif", hills);
   const auto draft = [&](const std::string& azimuth) {
     return make_small_draft(
@@ -75,8 +75,8 @@ TEST(ContactSheet, SharedGroundIsTheGround) {
   const Grid<glm::vec3> alone = read_picture(folder / "alone.png");
   const Grid<glm::vec3> both = read_picture(folder / "both.png");
   int other = 0;
-  for (int y = 12; y < 12 + 64; ++y)
-    for (int x = 12; x < 12 + 96; ++x) other += alone(x, y) == both(x, y) ? 0 : 1;
+  for (const auto [x, y] : test::cells({12, 12, 12 + 96, 12 + 64}))
+    other += alone(x, y) == both(x, y) ? 0 : 1;
   EXPECT_EQ(other, 0);
 }
 

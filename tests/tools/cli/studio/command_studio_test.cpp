@@ -10,6 +10,7 @@
 
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
+#include "tests/grids.h"
 #include "tests/http_server.h"
 #include "tests/renderer/compose/synthetic_region.h"
 #include "tests/tools/program.h"
@@ -108,9 +109,8 @@ TEST_F(StudioCommand, FetchesAPlaceAndProposesItsScene) {
   constexpr int side = 200;
   constexpr double cell = 1.0 / side;
   Raster<float> dem{Grid<float>(side, side), {11.0, 48.0, cell, cell}, normalize_crs("EPSG:4326")};
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)
-      dem.cells(x, y) = static_cast<float>(1200.0 + 600.0 * std::sin(0.1 * x) * std::cos(0.08 * y));
+  for (const auto [x, y] : test::cells(side, side))
+    dem.cells(x, y) = static_cast<float>(1200.0 + 600.0 * std::sin(0.1 * x) * std::cos(0.08 * y));
   std::filesystem::create_directories(path("served"));
   write_raster(path("served/N47E011.tif"), dem);
   const std::string heights = write(

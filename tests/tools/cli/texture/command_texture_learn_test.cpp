@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/random.h"
+#include "tests/grids.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "tests/tools/program.h"
 
@@ -53,8 +54,7 @@ TEST_F(Texture, IsLearntAndMadeWithoutEnd) {
   // Overlapping windows.
   const Grid<glm::vec3> left = make("left.png", {"--window", "-30", "5", "60", "20"});
   const Grid<glm::vec3> right = make("right.png", {"--window", "10,10,20,10"});
-  for (int y = 0; y < 10; ++y)
-    for (int x = 0; x < 20; ++x) EXPECT_EQ(right(x, y), left(x + 40, y + 5));
+  for (const auto [x, y] : test::cells(20, 10)) EXPECT_EQ(right(x, y), left(x + 40, y + 5));
 
   // A hole in the crop: what is around it stays to the bit.
   const std::string hole = write_labels("hole.tif", 72, 64, [](int x, int y) {
@@ -68,14 +68,13 @@ TEST_F(Texture, IsLearntAndMadeWithoutEnd) {
   const Grid<glm::vec3> before = read_picture(path("crop.png"));
   const Grid<glm::vec3> after = read_picture(path("filled.png"));
   int changed = 0;
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 72; ++x) {
-      const bool inside = x > 20 && x < 40 && y > 20 && y < 44;
-      if (!inside) {
-        EXPECT_EQ(after(x, y), before(x, y));
-      }
-      changed += after(x, y) != before(x, y) ? 1 : 0;
+  for (const auto [x, y] : test::cells(72, 64)) {
+    const bool inside = x > 20 && x < 40 && y > 20 && y < 44;
+    if (!inside) {
+      EXPECT_EQ(after(x, y), before(x, y));
     }
+    changed += after(x, y) != before(x, y) ? 1 : 0;
+  }
   EXPECT_GT(changed, 300);
   EXPECT_THAT(read_bytes(path("page/index.html")),
               AllOf(HasSubstr("437 of 4608"), HasSubstr("before.png"), HasSubstr("after.png")));
@@ -116,8 +115,7 @@ TEST_F(Texture, JoinsPicturesAndNothingElse) {
                 .status,
             0);
   const Grid<glm::vec3> down = read_picture(path("down.png"));
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 132; ++x) ASSERT_EQ(down(y, x), joined(x, y));
+  for (const auto [x, y] : test::cells(132, 64)) ASSERT_EQ(down(y, x), joined(x, y));
   EXPECT_EQ(run({"texture", "seam", left, "--out", path("seam.png")}).status, 2);
   EXPECT_EQ(run({"texture", "seam", left, below, "--out", path("seam.png")}).status, 2);
 }

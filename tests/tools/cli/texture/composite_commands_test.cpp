@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "tests/grids.h"
 #include "tests/texture/composite/composite_crops.h"
 #include "tests/tools/program.h"
 
@@ -69,8 +70,7 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
   EXPECT_THAT(read_bytes(path("made/index.html")),
               AllOf(HasSubstr("#0000ff"), HasSubstr("--size 90x70")));
   EXPECT_EQ(read_picture(path("window/labels.png")).width(), 40) << "the window's part of the map";
-  for (int y = 0; y < 25; ++y)
-    for (int x = 0; x < 40; ++x) ASSERT_EQ(part(x, y), all(20 + x, 30 + y));
+  for (const auto [x, y] : test::cells(40, 25)) ASSERT_EQ(part(x, y), all(20 + x, 30 + y));
   const Grid<glm::vec3> map = read_picture(path("map.png"));
   EXPECT_EQ(map(45, 2), glm::vec3(0.F, 0.F, 1.F));
   EXPECT_EQ(map(45, 67), glm::vec3(1.F, 1.F, 0.F));

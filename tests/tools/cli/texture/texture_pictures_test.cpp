@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "tests/grids.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "tests/tools/program.h"
@@ -30,11 +31,10 @@ class TexturePictures : public Program {
   std::string write_fine(const std::string& name, int width, int height) const {
     const Grid<Rgb8> crop = test::meadow_crop(width, height);
     Grid<glm::vec3> picture(width, height);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        picture(x, y) = (glm::vec3(crop(x, y)[0], crop(x, y)[1], crop(x, y)[2]) * 256.F +
-                         static_cast<float>((7 * x + 3 * y) % 99)) /
-                        65535.F;
+    for (const auto [x, y] : test::cells(width, height))
+      picture(x, y) = (glm::vec3(crop(x, y)[0], crop(x, y)[1], crop(x, y)[2]) * 256.F +
+                       static_cast<float>((7 * x + 3 * y) % 99)) /
+                      65535.F;
     write_tiff16(path(name), picture, {});
     return path(name);
   }
@@ -42,11 +42,10 @@ class TexturePictures : public Program {
   std::string write_clear(const std::string& name, int width, int height, int opaque_from) const {
     const Grid<Rgb8> crop = test::meadow_crop(width, height);
     std::string rows;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        for (const std::uint8_t c : crop(x, y)) rows += static_cast<char>(c);
-        rows += static_cast<char>(x < opaque_from ? 0 : 255);
-      }
+    for (const auto [x, y] : test::cells(width, height)) {
+      for (const std::uint8_t c : crop(x, y)) rows += static_cast<char>(c);
+      rows += static_cast<char>(x < opaque_from ? 0 : 255);
+    }
     return write(name, test::make_png(width, height, 8, 6, rows));
   }
   // Learned once.
@@ -122,14 +121,13 @@ TEST_F(TexturePictures, ClearPixelsAreNotPaint) {
   std::string red = read_bytes(clear);
   const Grid<Rgb8> crop = test::meadow_crop(100, 64);
   std::string rows;
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 100; ++x) {
-      if (x < 20)
-        rows += std::string("\xff\0\0\0", 4);
-      else
-        rows += {static_cast<char>(crop(x, y)[0]), static_cast<char>(crop(x, y)[1]),
-                 static_cast<char>(crop(x, y)[2]), '\xff'};
-    }
+  for (const auto [x, y] : test::cells(100, 64)) {
+    if (x < 20)
+      rows += std::string("\xff\0\0\0", 4);
+    else
+      rows += {static_cast<char>(crop(x, y)[0]), static_cast<char>(crop(x, y)[1]),
+               static_cast<char>(crop(x, y)[2]), '\xff'};
+  }
   const std::string other = write("red.png", test::make_png(100, 64, 8, 6, rows));
   const auto fill = [&](const std::string& scan, const std::string& out) {
     const Outcome filled = run(
@@ -140,8 +138,8 @@ TEST_F(TexturePictures, ClearPixelsAreNotPaint) {
   };
   const Grid<glm::vec3> one = fill(clear, "one.png");
   const Grid<glm::vec3> two = fill(other, "two.png");
-  for (int y = 0; y < 64; ++y)
-    for (int x = 20; x < 100; ++x) ASSERT_EQ(one(x, y), two(x, y)) << x << ", " << y;
+  for (const auto [x, y] : test::cells({20, 0, 100, 64}))
+    ASSERT_EQ(one(x, y), two(x, y)) << x << ", " << y;
 }
 
 TEST_F(TexturePictures, SixteenBitsStayWhereNothingIsMade) {
@@ -157,14 +155,13 @@ TEST_F(TexturePictures, SixteenBitsStayWhereNothingIsMade) {
   EXPECT_THAT(filled.err, Not(HasSubstr("8 bits")));
   const Grid<glm::vec3> after = read_picture(path("filled.tif"));
   int changed = 0;
-  for (int y = 0; y < 70; ++y)
-    for (int x = 0; x < 80; ++x) {
-      const bool inside = x > 30 && x < 50 && y > 20 && y < 50;
-      if (!inside) {
-        ASSERT_EQ(after(x, y), before(x, y));
-      }
-      changed += after(x, y) != before(x, y) ? 1 : 0;
+  for (const auto [x, y] : test::cells(80, 70)) {
+    const bool inside = x > 30 && x < 50 && y > 20 && y < 50;
+    if (!inside) {
+      ASSERT_EQ(after(x, y), before(x, y));
     }
+    changed += after(x, y) != before(x, y) ? 1 : 0;
+  }
   EXPECT_GT(changed, 400);
   const Outcome rounded =
       run({"texture", "fill", fine, "--hole", hole, "--model", model, "--out", path("filled.png")});
@@ -178,8 +175,7 @@ TEST_F(TexturePictures, SixteenBitsStayWhereNothingIsMade) {
                 .status,
             0);
   const Grid<glm::vec3> joined = read_picture(path("seam.tif"));
-  for (int y = 0; y < 70; ++y)
-    for (int x = 0; x < 80 - 12; ++x) ASSERT_EQ(joined(x, y), before(x, y));
+  for (const auto [x, y] : test::cells(80 - 12, 70)) ASSERT_EQ(joined(x, y), before(x, y));
 }
 
 TEST_F(TexturePictures, MasksThatSayNothingAreNamed) {
