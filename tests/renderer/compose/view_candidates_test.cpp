@@ -89,12 +89,11 @@ using test::depression;
 
 // From the south of the region northwards.
 ViewShape northward(double aspect = 2.0, bool cylinder = false, double field_deg = 44.0) {
-  ViewShape view;
-  view.viewer = test::position_km(30.0, -8.0);
-  view.field_of_view_deg = field_deg;
-  view.aspect = aspect;
-  view.cylinder = cylinder;
-  view.far_m = 52000.0;
+  ViewShape view{.viewer = test::position_km(30.0, -8.0),
+                 .field_of_view_deg = field_deg,
+                 .aspect = aspect,
+                 .cylinder = cylinder,
+                 .far_m = 52000.0};
   view.near_m = 0.42 * view.far_m;
   view.crest_m = 0.8 * view.far_m;
   return view;
@@ -191,13 +190,12 @@ TEST(Layout, FlatterLandIsExaggeratedMore) {
 class Reach : public testing::Test {
  protected:
   ViewReach of(double eye_m, const DeformParameters& deform) {
-    CameraParameters camera;
-    camera.eye = {viewer_, eye_m};
-    camera.width = 800;
-    camera.height = 400;
-    camera.field_of_view_deg = 44.0;
-    camera.pitch_deg = -20.0;
-    camera.projection = projection_;
+    const CameraParameters camera{.projection = projection_,
+                                  .width = 800,
+                                  .height = 400,
+                                  .eye = {viewer_, eye_m},
+                                  .pitch_deg = -20.0,
+                                  .field_of_view_deg = 44.0};
     return find_reach(ground_, Deformation(deform, viewer_), camera);
   }
   CoarseGround ground_ =

@@ -12,12 +12,11 @@ namespace {
 
 ViewShape view_of(const CoarseGround& ground, double east_km, double north_km, double azimuth_deg,
                   double far_m, double lone = 0.0) {
-  ViewShape view;
-  view.viewer = test::position_km(east_km, north_km);
-  view.azimuth_deg = azimuth_deg;
-  view.far_m = far_m;
-  view.near_m = 0.42 * far_m;
-  view.crest_m = 0.8 * far_m;
+  const ViewShape view{.viewer = test::position_km(east_km, north_km),
+                       .azimuth_deg = azimuth_deg,
+                       .near_m = 0.42 * far_m,
+                       .far_m = far_m,
+                       .crest_m = 0.8 * far_m};
   const auto laid = lay_out(ground, view, lone);
   EXPECT_TRUE(laid);
   return laid.value_or(view);

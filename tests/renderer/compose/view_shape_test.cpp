@@ -15,14 +15,13 @@ namespace {
 
 // The renderer's own cameras are another implementation of the same pictures.
 void expect_same_as_camera(const ViewShape& view, const char* projection) {
-  CameraParameters p;
-  p.projection = projection;
-  p.width = 2400;
-  p.height = static_cast<int>(std::lround(2400 / view.aspect));
-  p.eye = {1000.0, 2000.0, 5000.0};
-  p.azimuth_deg = view.azimuth_deg;
-  p.pitch_deg = view.pitch_deg;
-  p.field_of_view_deg = view.field_of_view_deg;
+  const CameraParameters p{.projection = projection,
+                           .width = 2400,
+                           .height = static_cast<int>(std::lround(2400 / view.aspect)),
+                           .eye = {1000.0, 2000.0, 5000.0},
+                           .azimuth_deg = view.azimuth_deg,
+                           .pitch_deg = view.pitch_deg,
+                           .field_of_view_deg = view.field_of_view_deg};
   const std::unique_ptr<Camera> camera = make_camera(p);
   const ComposedPicture picture(view);
   for (const double off_deg : {-20.0, -7.0, 0.0, 3.0, 18.0})

@@ -94,9 +94,7 @@ TEST(HouseStrokes, StandingThingsKeepOffClearedGroundAndTellWhatTheyHide) {
       .sky = false, .ground = false, .accents = false, .breaks = false, .upright = true};
   MappedGround mapped;
   mapped.cleared = Grid<std::uint8_t>(320, 240, 0);
-  SheetWindow window;
-  window.sheet_px = {320, 240};
-  window.mapped = &mapped;
+  SheetWindow window{.sheet_px = {320, 240}, .mapped = &mapped};
   const auto paint = [&](const SheetWindow& position) {
     return paint_strokes(p.ground.colour, p.guidance, p.ground, trees, p.parameters,
                          silent_progress(), position);

@@ -34,11 +34,8 @@ struct TestGround {
       surface.vertices_m(x, y) =
           glm::vec3(glm::dvec3(position, altitude_m(position)) - surface.origin);
     }
-    CameraParameters parameters;
-    parameters.width = width;
-    parameters.height = height;
-    parameters.eye = eye;
-    parameters.pitch_deg = -27.0;
+    const CameraParameters parameters{
+        .width = width, .height = height, .eye = eye, .pitch_deg = -27.0};
     camera = make_camera(parameters);
     tracer = std::make_unique<Tracer>(surface);
   }

@@ -47,11 +47,8 @@ MapRivers one_river() {
 }
 
 std::unique_ptr<Camera> camera_at(double altitude_m) {
-  CameraParameters p;
-  p.width = 1000;
-  p.height = 1000;
-  p.eye = {6000.0, 6000.0, altitude_m};
-  p.pitch_deg = -90.0;
+  const CameraParameters p{
+      .width = 1000, .height = 1000, .eye = {6000.0, 6000.0, altitude_m}, .pitch_deg = -90.0};
   return make_camera(p);
 }
 

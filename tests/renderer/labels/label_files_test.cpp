@@ -13,11 +13,10 @@ using testing::HasSubstr;
 using testing::Not;
 
 LabelSheet one_label(const std::string& name) {
-  LabelPoint point;
-  point.name = name;
-  point.altitude_m = 2749.0;
-  point.position = {680000.0, 5250000.0};
-  point.where = "peaks.csv:2";
+  const LabelPoint point{.name = name,
+                         .altitude_m = 2749.0,
+                         .position = {680000.0, 5250000.0},
+                         .where = "peaks.csv:2"};
   LabelMark mark;
   mark.drawn_position = {680100.0, 5250000.0};
   mark.dem_altitude_m = 2731.25;

@@ -85,12 +85,11 @@ const glm::dvec3 sun(0.0, -0.6, 0.8);
 // Looks north at a summit 10 km away, 2000 m high, in 400 × 200 pixels.
 struct Scenery {
   explicit Scenery(double wind_from_deg, double ahead_m = 10000.0) {
-    CameraParameters p;
-    p.width = 400;
-    p.height = 200;
-    p.eye = {0.0, 0.0, 2200.0};
-    p.pitch_deg = 0.0;
-    p.field_of_view_deg = 60.0;
+    const CameraParameters p{.width = 400,
+                             .height = 200,
+                             .eye = {0.0, 0.0, 2200.0},
+                             .pitch_deg = 0.0,
+                             .field_of_view_deg = 60.0};
     camera = make_camera(p);
     cloud = make_lee_cloud({.kind = MistKind::lee,
                             .position = glm::dvec2(0.0, ahead_m),

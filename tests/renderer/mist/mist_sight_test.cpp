@@ -39,14 +39,13 @@ MistSight see(const MistAir& air, const SyntheticWorld& world, const Camera& cam
 TEST(MistSight, OverAPlaneALayerLetsThroughWhatTheFormulaSays) {
   const SyntheticWorld world = make_world(
       200, 200, [](double, double) { return 500.0; }, all_meadow);
-  CameraParameters p;
-  p.projection = "oblique";
-  p.width = 60;
-  p.height = 40;
-  p.pitch_deg = -30.0;
-  p.azimuth_deg = 180.0;
-  p.view_width_m = 2400.0;
-  p.eye = {653000.0, 5318000.0, 3000.0};
+  const CameraParameters p{.projection = "oblique",
+                           .width = 60,
+                           .height = 40,
+                           .eye = {653000.0, 5318000.0, 3000.0},
+                           .azimuth_deg = 180.0,
+                           .pitch_deg = -30.0,
+                           .view_width_m = 2400.0};
   const auto camera = make_camera(p);
   const GuidanceBuffers guidance = test::trace(world, *camera);
   const MistSight sight = see(flat_sea(800.0, 2000.0, world), world, *camera, guidance);

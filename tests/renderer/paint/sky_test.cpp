@@ -159,9 +159,7 @@ TEST(Sky, StreaksAllLeanOneWay) {
   const Palette palette = read_palette("summer");
   double leaning = 0.0;
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    SkyParameters p;
-    p.kind = SkyKind::streaks;
-    p.seed = seed;
+    const SkyParameters p{.kind = SkyKind::streaks, .seed = seed};
     const double from_px = look_of_sky(p).vanishing_px.x;
     EXPECT_TRUE(from_px < -100.0 || from_px > 2500.0) << from_px;
     const Grid<glm::vec3> sky = make_sky(Grid<float>(2400, 198, sky_depth), palette, p, {0, 0});
@@ -231,11 +229,10 @@ TEST(Sky, SkylineByRaysIsWhereTheCrestProjects) {
                                 y == 10 ? 400.0F : 0.0F};
   surface.origin = {500000.0, 5000000.0, 0.0};
   const Tracer tracer(surface);
-  CameraParameters parameters;
-  parameters.width = 400;
-  parameters.height = 300;
-  parameters.eye = surface.origin + glm::dvec3(0.0, 0.0, 900.0);
-  parameters.pitch_deg = -10.0;
+  CameraParameters parameters{.width = 400,
+                              .height = 300,
+                              .eye = surface.origin + glm::dvec3(0.0, 0.0, 900.0),
+                              .pitch_deg = -10.0};
   const auto camera = make_camera(parameters);
   const std::optional<glm::dvec2> crest =
       camera->project(surface.origin + glm::dvec3(0.0, 6000.0, 400.0));
@@ -246,11 +243,7 @@ TEST(Sky, SkylineByRaysIsWhereTheCrestProjects) {
 }
 
 SkyParameters front_sky(std::uint64_t seed, double sun_image_x) {
-  SkyParameters p;
-  p.kind = SkyKind::front;
-  p.seed = seed;
-  p.sun_image_x = sun_image_x;
-  return p;
+  return {.kind = SkyKind::front, .sun_image_x = sun_image_x, .seed = seed};
 }
 
 // Mean cover of the left and the right third of the sky.

@@ -127,9 +127,8 @@ TEST(RegisteredLight, IsThatOfThePainting) {
 }
 
 TEST(RegisteredLight, GivesPartsOfOtherLightTheirOwn) {
-  RegisteredLight light;
-  light.sun = {300.0, 30.0, 0.3, 0.3, 0.1, 5000};
-  light.regions = Grid<RegisteredRegion>(2, 2);
+  RegisteredLight light{.sun = {300.0, 30.0, 0.3, 0.3, 0.1, 5000},
+                        .regions = Grid<RegisteredRegion>(2, 2)};
   const std::vector<glm::dvec2> square = {{0, 0}, {4000, 0}, {4000, 4000}, {0, 4000}};
   light.regions(0, 0) = {{60.0, 40.0, 0.3, 0.1, 0.1, 900}, 10.0, square};
   light.regions(1, 0) = {{315.0, 30.0, 0.3, 0.1, 0.1, 900}, 20.0, square};  // nearly the same

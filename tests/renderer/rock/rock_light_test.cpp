@@ -17,15 +17,13 @@ using test::limestone;
 // A wall that faces north, 60° steep; the view is to the south, so east is on the left of the
 // picture.
 RockPixel wall_pixel() {
-  RockPixel p;
-  p.normal = glm::normalize(glm::vec3(0.0F, 1.0F, 0.6F));
-  p.slope_deg = 59.0F;
-  p.depth_m = 50000.0F;
-  p.metres_per_unit = 22.0F;
-  p.altitude_m = 2000.0F;
-  p.band = 1;
-  p.scale = 4.0F;
-  return p;
+  return {.normal = glm::normalize(glm::vec3(0.0F, 1.0F, 0.6F)),
+          .depth_m = 50000.0F,
+          .slope_deg = 59.0F,
+          .altitude_m = 2000.0F,
+          .metres_per_unit = 22.0F,
+          .band = 1,
+          .scale = 4.0F};
 }
 
 struct Flank {

@@ -39,12 +39,11 @@ SpurField lone_spur() {
   cells.spacing = 20.0F;
   cells.first = {2, 2};
   cells.count = {1, 1};
-  Spur spur;
-  spur.grown = true;
-  spur.position = {50.0F, 50.0F};
-  spur.top = 0.5F;
-  spur.flank = {1.0F, 1.5F};
-  spur.depth_m = 1000.0F;
+  Spur spur{.grown = true,
+            .position = {50.0F, 50.0F},
+            .top = 0.5F,
+            .flank = {1.0F, 1.5F},
+            .depth_m = 1000.0F};
   spur.tolerance_m = 100.0F;
   spur.id = 7;
   cells.spurs = {spur};

@@ -32,10 +32,9 @@ struct StyledScene {
     static GroundInputs inputs_of(StyledScene& scene, const Style* style) {
       const SheetView view = view_of(scene.world);
       GroundInputs inputs = make_ground_inputs(scene.world, view, scene.palette, {});
-      StylePaintParameters parameters;
-      parameters.pixels_per_unit = view.pixels_per_unit;
-      parameters.sheet_px = view.camera.size();
-      parameters.contour_lines = 0.7;
+      const StylePaintParameters parameters{.pixels_per_unit = view.pixels_per_unit,
+                                            .sheet_px = view.camera.size(),
+                                            .contour_lines = 0.7};
       if (style != nullptr)
         inputs.style = make_sheet_style(*style, parameters, scene.world, view.camera, {});
       return inputs;

@@ -25,9 +25,7 @@ StyleGround ground_of(const test::StyledSheet& sheet, const Style& style,
 }
 
 TEST(StyleGround, DistanceRunsFromNearToFarByItsLogarithm) {
-  StylePaintParameters parameters;
-  parameters.near_m = 1000.0;
-  parameters.far_m = 100000.0;
+  const StylePaintParameters parameters{.near_m = 1000.0, .far_m = 100000.0};
   EXPECT_EQ(style_distance(parameters, 10.0), 0.0);
   EXPECT_NEAR(style_distance(parameters, 10000.0), 0.5, 1e-12);
   EXPECT_EQ(style_distance(parameters, 1e9), 1.0);

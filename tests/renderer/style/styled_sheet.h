@@ -96,11 +96,8 @@ inline Style make_style() {
 
 inline StylePaintParameters make_style_parameters(int width = sheet_width,
                                                   int height = sheet_height) {
-  StylePaintParameters parameters;
-  parameters.sheet_px = {width, height};
-  parameters.contour_lines = 0.0;
-  parameters.sky_rows = sky_end;
-  parameters.seed = 11;
+  StylePaintParameters parameters{
+      .sheet_px = {width, height}, .sky_rows = sky_end, .seed = 11, .contour_lines = 0.0};
   return parameters;
 }
 

@@ -15,14 +15,12 @@ namespace belvedere {
 namespace {
 
 CameraParameters base(const std::string& projection) {
-  CameraParameters p;
-  p.projection = projection;
-  p.width = 800;
-  p.height = 400;
-  p.eye = {692000.0, 5302000.0, 22000.0};
-  p.azimuth_deg = 182.0;
-  p.pitch_deg = -19.0;
-  return p;
+  return {.projection = projection,
+          .width = 800,
+          .height = 400,
+          .eye = {692000.0, 5302000.0, 22000.0},
+          .azimuth_deg = 182.0,
+          .pitch_deg = -19.0};
 }
 
 void expect_near(glm::dvec3 a, glm::dvec3 b, double tolerance) {
@@ -214,15 +212,13 @@ TEST(Camera, RefusesValuesOutOfRangeNamingTheField) {
 }
 
 CameraParameters wide(double field_of_view_deg, double pitch_deg = 0.0) {
-  CameraParameters p;
-  p.projection = "panini";
-  p.width = 800;
-  p.height = 400;
-  p.eye = {692000.0, 5302000.0, 2200.0};
-  p.azimuth_deg = 182.0;
-  p.pitch_deg = pitch_deg;
-  p.field_of_view_deg = field_of_view_deg;
-  return p;
+  return {.projection = "panini",
+          .width = 800,
+          .height = 400,
+          .eye = {692000.0, 5302000.0, 2200.0},
+          .azimuth_deg = 182.0,
+          .pitch_deg = pitch_deg,
+          .field_of_view_deg = field_of_view_deg};
 }
 
 // A position 7 km away, turned from the centre of the picture, at this height above the eye.

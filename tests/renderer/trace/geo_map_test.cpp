@@ -84,12 +84,11 @@ std::unique_ptr<SeenGround> make_ground(const DeformParameters& deform_parameter
                                       std::make_shared<const LandCover>(std::move(cover)),
                                       deform_parameters.exaggeration);
   if (world->deformation.is_local()) world->terrain.local = world->deformation;
-  CameraParameters camera;
-  camera.width = 240;
-  camera.height = 160;
-  camera.eye = {viewer, 4500.0};
-  camera.azimuth_deg = 180.0;
-  camera.pitch_deg = -33.0;
+  CameraParameters camera{.width = 240,
+                          .height = 160,
+                          .eye = {viewer, 4500.0},
+                          .azimuth_deg = 180.0,
+                          .pitch_deg = -33.0};
   world->camera = make_camera(camera);
   world->tracer = std::make_unique<Tracer>(world->surface);
   return world;

@@ -22,12 +22,11 @@ struct Sketch {
   explicit Sketch(Grid<float> ground) : altitude_m(std::move(ground)) {
     surface = deform(altitude_m, sketch_frame, glm::dvec3(sketch_viewer, 0.0), deformation);
     tracer = std::make_unique<Tracer>(surface);
-    CameraParameters parameters;
-    parameters.width = 60;
-    parameters.height = 40;
-    parameters.eye = {sketch_viewer, 3000.0};
-    parameters.pitch_deg = -30.0;
-    parameters.field_of_view_deg = 60.0;
+    const CameraParameters parameters{.width = 60,
+                                      .height = 40,
+                                      .eye = {sketch_viewer, 3000.0},
+                                      .pitch_deg = -30.0,
+                                      .field_of_view_deg = 60.0};
     camera = make_camera(parameters);
   }
   Grid<glm::vec3> draw(glm::dvec3 sun, const Grid<std::uint8_t>& marked = {}) const {

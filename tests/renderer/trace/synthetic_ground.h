@@ -72,13 +72,11 @@ inline double rough(double x, double y) {
 
 // Looks south from 3 km north of the terrain's northern edge.
 inline CameraParameters southward(int width, int height, double pitch_deg = -20.0) {
-  CameraParameters p;
-  p.width = width;
-  p.height = height;
-  p.eye = {653000.0, 5323000.0, 3500.0};
-  p.azimuth_deg = 180.0;
-  p.pitch_deg = pitch_deg;
-  return p;
+  return {.width = width,
+          .height = height,
+          .eye = {653000.0, 5323000.0, 3500.0},
+          .azimuth_deg = 180.0,
+          .pitch_deg = pitch_deg};
 }
 
 inline GuidanceBuffers trace(const SyntheticWorld& world, const Camera& camera,

@@ -79,9 +79,7 @@ bool same_bits(const Hit& a, const Hit& b) {
 // Rays of a perspective view over the surface, in bundles of 4 × 4 pixels.
 std::vector<Ray> view_rays(const DeformedSurface& surface, int width, int height, double height_m,
                            double pitch_deg = -10.0) {
-  CameraParameters p;
-  p.width = width;
-  p.height = height;
+  CameraParameters p{.width = width, .height = height};
   const glm::dvec3 a = surface.origin + glm::dvec3(surface.vertices_m(0, 0));
   const glm::dvec3 b =
       surface.origin + glm::dvec3(surface.vertices_m(surface.vertices_m.width() - 1,

@@ -96,9 +96,8 @@ sheet_width_mm = 160
   static const World& in_one() { return made(whole_, {}); }
   static const World& in_windows() { return made(parts_, {few_cells}); }
   static GuidanceBuffers guidance_of(const World& world) {
-    GuidanceParameters parameters;
-    parameters.sampling = world.scene.sampling;
-    parameters.sun_direction = world.view.sun_direction;
+    const GuidanceParameters parameters{.sampling = world.scene.sampling,
+                                        .sun_direction = world.view.sun_direction};
     return trace_guidance(world.terrain, *world.surface, world.tracer, *world.camera, parameters,
                           {0, 0, 320, 200}, silent_progress());
   }

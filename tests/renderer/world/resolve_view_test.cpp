@@ -126,18 +126,17 @@ TEST_F(ViewSettling, TheSkyHasItsShareAndTheGroundItsHorizon) {
   for (const std::string& text :
        {position_, target_, position_ + "height_m = 14000\nazimuth_deg = -12\n"}) {
     const View v = view(text);
-    ViewShape shape;
-    shape.viewer = v.viewer_xy;
-    shape.azimuth_deg = v.camera.azimuth_deg;
-    shape.pitch_deg = v.camera.pitch_deg;
-    shape.field_of_view_deg = v.camera.field_of_view_deg;
-    shape.aspect = static_cast<double>(v.camera.width) / v.camera.height;
-    shape.eye_m = v.camera.eye.z;
-    shape.exaggeration = v.deform.exaggeration;
-    shape.base_m = v.deform.exaggeration_base_m;
-    shape.radius_m = v.deform.bend.radius_m;
-    shape.crest_m = v.deform.bend.crest_m;
-    shape.far_m = v.air.from_m / 0.45;
+    ViewShape shape{.viewer = v.viewer_xy,
+                    .azimuth_deg = v.camera.azimuth_deg,
+                    .field_of_view_deg = v.camera.field_of_view_deg,
+                    .aspect = static_cast<double>(v.camera.width) / v.camera.height,
+                    .far_m = v.air.from_m / 0.45,
+                    .crest_m = v.deform.bend.crest_m,
+                    .exaggeration = v.deform.exaggeration,
+                    .base_m = v.deform.exaggeration_base_m,
+                    .radius_m = v.deform.bend.radius_m,
+                    .eye_m = v.camera.eye.z,
+                    .pitch_deg = v.camera.pitch_deg};
     shape.near_m = 0.42 * shape.far_m;
     const double sky = measure_view(ground, shape, {}).skyline.median;
     EXPECT_GT(sky, 0.10) << text;
@@ -258,11 +257,10 @@ TEST(CompleteView, WithNothingSettledIsTheLayoutOfTheLargestThatFits) {
   ASSERT_TRUE(view);
   EXPECT_TRUE(fits_data(ground, *view));
   EXPECT_GT(view->far_m, 0.7 * ground.side_m);
-  ViewShape shape;
-  shape.viewer = view->viewer;
-  shape.far_m = view->far_m;
-  shape.near_m = view->near_m;
-  shape.crest_m = view->crest_m;
+  const ViewShape shape{.viewer = view->viewer,
+                        .near_m = view->near_m,
+                        .far_m = view->far_m,
+                        .crest_m = view->crest_m};
   const auto laid = lay_out(ground, shape, find_massifs(ground).lone);
   ASSERT_TRUE(laid);
   EXPECT_EQ(view->radius_m, laid->radius_m);

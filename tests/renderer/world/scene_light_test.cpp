@@ -201,13 +201,12 @@ class TwoCones : public testing::Test {
   View view_;
 
   TwoCones() {
-    CameraParameters p;
-    p.width = 160;
-    p.height = 90;
-    p.eye = {659000.0, 5328000.0, 5000.0};
-    p.azimuth_deg = 180.0;
-    p.pitch_deg = -18.0;
-    p.field_of_view_deg = 75.0;
+    const CameraParameters p{.width = 160,
+                             .height = 90,
+                             .eye = {659000.0, 5328000.0, 5000.0},
+                             .azimuth_deg = 180.0,
+                             .pitch_deg = -18.0,
+                             .field_of_view_deg = 75.0};
     camera_ = make_camera(p);
     view_.camera = p;
     set_sun(180.0, 20.0);  // low enough that more than the middle of the seen sides is turned away
@@ -295,12 +294,11 @@ TEST(SeenRanges, ToldFromTurnedAwayIsWhatLiesInCastShadow) {
         },
         all_meadow);
   };
-  CameraParameters p;
-  p.width = 96;
-  p.height = 64;
-  p.eye = {654500.0, 5318000.0, 9000.0};
-  p.azimuth_deg = 180.0;
-  p.pitch_deg = -70.0;
+  const CameraParameters p{.width = 96,
+                           .height = 64,
+                           .eye = {654500.0, 5318000.0, 9000.0},
+                           .azimuth_deg = 180.0,
+                           .pitch_deg = -70.0};
   const auto camera = make_camera(p);
   const auto shares = [&](double wall) {
     const SyntheticWorld world = cone_behind_wall(wall);

@@ -90,12 +90,11 @@ std::vector<std::string> notes_of(glm::dvec2 viewer, double azimuth_deg, double 
   const DeformedSurface surface =
       deform(dem.altitude_m, dem.transform, glm::dvec3(viewer, 0.0), plain);
   const Tracer tracer(surface);
-  CameraParameters parameters;
-  parameters.width = 200;
-  parameters.height = 100;
-  parameters.eye = {viewer, 3000.0};
-  parameters.azimuth_deg = azimuth_deg;
-  parameters.pitch_deg = pitch_deg;
+  const CameraParameters parameters{.width = 200,
+                                    .height = 100,
+                                    .eye = {viewer, 3000.0},
+                                    .azimuth_deg = azimuth_deg,
+                                    .pitch_deg = pitch_deg};
   Notes notes;
   check_ground_in_view(dem, *make_camera(parameters), tracer, notes);
   return notes.all;

@@ -222,12 +222,11 @@ using testing::AllOf;
 // A level perspective 90° wide: its plane lies half a width before the eye, so that the picture's
 // rim is seen at a slope of (height / width) · cos(angle off the middle).
 TEST(SightLines, OfALevelPerspective) {
-  CameraParameters camera;
-  camera.width = 400;
-  camera.height = 100;
-  camera.azimuth_deg = 30.0;
-  camera.pitch_deg = 0.0;
-  camera.field_of_view_deg = 90.0;
+  const CameraParameters camera{.width = 400,
+                                .height = 100,
+                                .azimuth_deg = 30.0,
+                                .pitch_deg = 0.0,
+                                .field_of_view_deg = 90.0};
   const std::vector<SightLine> lines = sight_lines(camera, 9);
   ASSERT_EQ(lines.size(), 9U);
   for (std::size_t i = 0; i < lines.size(); ++i) {

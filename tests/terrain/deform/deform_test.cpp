@@ -312,12 +312,11 @@ TEST(Undeform, SummitsHandlesAndAFieldGoBackWithinMillimetres) {
   p.summits = {{{605500.0, 5209500.0}, 6000.0, 1.7, 900.0},
                {{600000.0, 5200500.0}, 3000.0, 0.6, 100.0}};
   expect_round_trip(p, 0.01);
-  DeformHandle handle;
-  handle.centre = {604000.0, 5208000.0};
-  handle.radius_m = 12000.0;
-  handle.core_m = 3000.0;
-  handle.move_m = {900.0, -400.0};
-  handle.raise_m = 250.0;
+  const DeformHandle handle{.centre = {604000.0, 5208000.0},
+                            .move_m = {900.0, -400.0},
+                            .raise_m = 250.0,
+                            .radius_m = 12000.0,
+                            .core_m = 3000.0};
   p.handles = {handle};
   expect_round_trip(p, 0.01);
   p.exaggeration_points = {{5000.0, 1.1}, {60000.0, 0.9}};

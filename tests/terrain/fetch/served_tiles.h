@@ -119,15 +119,13 @@ class ServedTiles : public ::testing::Test {
             .pause_s = 0.0};
   }
   FetchParameters parameters(glm::dvec2 at, double size_km, bool with_cover = false) const {
-    FetchParameters out;
-    out.at_lonlat = at;
-    out.size_km = glm::dvec2(size_km);
-    out.elevation = write("test_heights.toml", elevation_toml());
-    out.land_cover = with_cover ? write("test_cover.toml", cover_toml()) : std::string();
-    out.mirror = mirror();
-    out.now_unix_s = now_;
-    out.http_options = http_options();
-    return out;
+    return {.at_lonlat = at,
+            .size_km = glm::dvec2(size_km),
+            .elevation = write("test_heights.toml", elevation_toml()),
+            .land_cover = with_cover ? write("test_cover.toml", cover_toml()) : std::string(),
+            .mirror = mirror(),
+            .now_unix_s = now_,
+            .http_options = http_options()};
   }
   FetchedArea fetch(const FetchParameters& parameters, const std::string& out = "out") {
     return fetch_area(parameters, path(out), cache_, progress_);

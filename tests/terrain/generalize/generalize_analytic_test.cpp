@@ -72,13 +72,12 @@ TEST(GeneralizeGain, OfACosineIsThatOfItsBandAlone) {
 
 TEST(GeneralizeEquationFive, MixesRidgeAndValleySetsAsWeights) {
   const Grid<float> terrain = alpine(160, 120);
-  GeneralizeParameters p;
-  p.foreground = {1.F, .75F, .5F, .25F};
-  p.background = {.5F, .25F, .25F, 0.F};
-  p.foreground_ridges = {0.F, .5F, .25F, 1.F};
-  p.background_ridges = {.5F, 1.F, 1.25F, 2.F};
-  p.foreground_valleys = {.25F, 0.F, -.5F, .5F};
-  p.background_valleys = {.75F, .5F, .5F, -1.F};
+  const GeneralizeParameters p{.foreground = {1.F, .75F, .5F, .25F},
+                               .background = {.5F, .25F, .25F, 0.F},
+                               .foreground_ridges = {0.F, .5F, .25F, 1.F},
+                               .foreground_valleys = {.25F, 0.F, -.5F, .5F},
+                               .background_ridges = {.5F, 1.F, 1.25F, 2.F},
+                               .background_valleys = {.75F, .5F, .5F, -1.F}};
   // The same with one distance only: share · foreground + (1 - share) · background.
   const auto mixed = [&](float share) {
     const auto mix = [share](const Weights& near, const Weights& far) {

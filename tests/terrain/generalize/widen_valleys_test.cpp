@@ -35,11 +35,7 @@ Grid<float> make_valley(double floor_m) {
 }
 
 WidenValleysParameters valleys_of(float width_m) {
-  WidenValleysParameters parameters;
-  parameters.width_m = width_m;
-  parameters.min_catchment_km2 = 4.F;
-  parameters.full_catchment_km2 = 6.F;
-  return parameters;
+  return {.width_m = width_m, .min_catchment_km2 = 4.F, .full_catchment_km2 = 6.F};
 }
 
 Grid<float> widen(const Grid<float>& altitude_m, const WidenValleysParameters& parameters,
@@ -244,10 +240,8 @@ Grid<glm::vec2> moves_of_a_valley(double river_wave = 0.0) {
     valley(x, y) =
         static_cast<float>(1500.0 - 0.6 * y + std::min(side, 180.0 - side) * cell_m * 0.5);
   }
-  WidenValleysParameters parameters;
-  parameters.width_m = 480.F;
-  parameters.min_catchment_km2 = 4.F;
-  parameters.full_catchment_km2 = 6.F;
+  const WidenValleysParameters parameters{
+      .width_m = 480.F, .min_catchment_km2 = 4.F, .full_catchment_km2 = 6.F};
   return widen_valleys(valley, {}, {}, cell_m, parameters, silent_progress()).goes_to;
 }
 

@@ -110,11 +110,9 @@ TEST(Dem, SameBitsForAnyThreads) {
   for (std::size_t i = 0; i < raster.cells.size(); i += 3)
     raster.cells[i] += static_cast<float>(i % 17);
   cut_disc(raster.cells, 200, 200, 150);
-  const auto run = [&](int threads) {
-    const ThreadLimit limit(threads);
-    return make_dem(raster).altitude_m;
-  };
-  EXPECT_EQ(run(1), run(2));
+  const auto many = make_dem(raster).altitude_m;
+  const ThreadLimit one(1);
+  EXPECT_EQ(make_dem(raster).altitude_m, many);
 }
 
 TEST_F(DemFiles, ReadsConvertsFillsAndSaysSo) {

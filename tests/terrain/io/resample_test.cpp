@@ -114,9 +114,7 @@ TEST(SampleNearest, TakesTheCellThatHoldsThePlace) {
 constexpr char utm32[] = "EPSG:32632";
 
 CellAffine upright(double west, double north, double cell) {
-  CellAffine affine;
-  affine.x0 = west;
-  affine.y0 = north;
+  CellAffine affine{.x0 = west, .y0 = north};
   affine.x_column = cell;
   affine.y_row = -cell;
   return affine;

@@ -277,10 +277,7 @@ std::vector<Grid<float>> constant_shares(int size) {
 // Without sharpening the frequency is the share, for any spectrum of the noise.
 TEST(LayerDrawing, FrequencyIsTheShare) {
   for (const double spectrum : {0.0, 0.5, 2.0}) {
-    LayerDrawingParameters parameters;
-    parameters.power = 1.0;
-    parameters.spectrum = spectrum;
-    parameters.octaves = 4;
+    const LayerDrawingParameters parameters{.power = 1.0, .octaves = 4, .spectrum = spectrum};
     const std::vector<Grid<float>> shares = constant_shares(700);
     const Grid<LandCoverClass> drawn =
         draw_classes(plan_layer_drawing(parameters, shares), shares, metres, {0, 0, 700, 700});

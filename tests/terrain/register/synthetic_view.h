@@ -16,10 +16,9 @@ inline std::vector<ControlPair> synthetic_places(std::size_t count, std::uint64_
   std::vector<ControlPair> pairs;
   for (std::size_t i = 0; i < count; ++i) {
     const auto n = static_cast<std::int64_t>(i);
-    ControlPair pair;
-    pair.position = {670000.0 + 30000.0 * random_uniform(seed, n, 0),
-                     5240000.0 + 30000.0 * random_uniform(seed, n, 1)};
-    pair.altitude_m = 600.0 + 2000.0 * random_uniform(seed, n, 2);
+    const ControlPair pair{.position = {670000.0 + 30000.0 * random_uniform(seed, n, 0),
+                                        5240000.0 + 30000.0 * random_uniform(seed, n, 1)},
+                           .altitude_m = 600.0 + 2000.0 * random_uniform(seed, n, 2)};
     pairs.push_back(pair);
   }
   return pairs;

@@ -18,13 +18,7 @@ namespace belvedere {
 namespace {
 
 // As large as the default, with coarse cells: a main valley, side valleys and ranges.
-SyntheticParameters quick() {
-  SyntheticParameters p;
-  p.width = 300;
-  p.height = 320;
-  p.cell_m = 120.0;
-  return p;
-}
+SyntheticParameters quick() { return {.width = 300, .height = 320, .cell_m = 120.0}; }
 
 const Dem& terrain() {
   static const Dem dem = make_synthetic_terrain(quick(), silent_progress());
@@ -132,10 +126,7 @@ TEST(SyntheticTerrain, IsTheSameForAnyNumberOfThreadsAndDiffersBySeed) {
 TEST(SyntheticTerrain, SmallAndOddSizesWork) {
   for (const auto& [width, height, cell] : {std::tuple{16, 16, 30.0}, std::tuple{57, 33, 30.0},
                                             std::tuple{40, 90, 1000.0}, std::tuple{64, 64, 1.0}}) {
-    SyntheticParameters p;
-    p.width = width;
-    p.height = height;
-    p.cell_m = cell;
+    const SyntheticParameters p{.width = width, .height = height, .cell_m = cell};
     const Dem dem = make_synthetic_terrain(p, silent_progress());
     ASSERT_EQ(dem.width(), width);
     ASSERT_EQ(dem.height(), height);
@@ -166,9 +157,7 @@ TEST(SyntheticTerrain, RefusesNonsense) {
 }
 
 TEST(RidgedNoise, KeepsItsRangeAtAnySize) {
-  SyntheticParameters p;
-  p.width = 333;
-  p.height = 100;
+  const SyntheticParameters p{.width = 333, .height = 100};
   const Dem dem = make_ridged_noise(p);
   const auto [low, high] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
   EXPECT_GE(*low, 500.F);

@@ -147,9 +147,7 @@ TEST_P(EachVectorWidth, BlackAgainstWhiteDoesNotOverflow) {
   Plane target = make_plane({{7, 7}}, 0);
   target.for_each([&](std::uint32_t at) { target.words[at] = 0xfe000000U; });
   pad(target);
-  KernelView view;
-  view.target = &target;
-  view.exemplars = &exemplars;
+  const KernelView view{.target = &target, .exemplars = &exemplars};
   std::int64_t weights = 0;
   for (int dy = -3; dy <= 3; ++dy) {
     for (int dx = -3; dx <= 3; ++dx)

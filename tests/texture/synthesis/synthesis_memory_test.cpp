@@ -31,10 +31,8 @@ GuideStack waves(int width, int height, int guides, bool with_depth) {
 
 // Memory of synthesis beyond its arguments, bytes.
 std::size_t peak_of(int width, int height, int guides, bool with_depth) {
-  Exemplar exemplar;
-  exemplar.name = "noise";
-  exemplar.guides = waves(96, 96, guides, false);
-  exemplar.picture = Grid<Rgb8>(96, 96);
+  Exemplar exemplar{
+      .name = "noise", .picture = Grid<Rgb8>(96, 96), .guides = waves(96, 96, guides, false)};
   for (std::size_t i = 0; i < exemplar.picture.size(); ++i) {
     exemplar.picture[i] = {
         static_cast<std::uint8_t>(random_bits(1, static_cast<std::int64_t>(i), 0)), 90, 40};

@@ -55,10 +55,9 @@ inline int streak_of(int label, int x, int y, std::uint64_t seed) {
 
 // Its painting: one hue per class, streaks that differ by class, brighter with tone.
 inline Exemplar painting(int width, int height, std::uint64_t seed) {
-  Exemplar exemplar;
-  exemplar.name = "painting " + std::to_string(seed);
-  exemplar.guides = land(width, height, seed);
-  exemplar.picture = Grid<Rgb8>(width, height);
+  Exemplar exemplar{.name = "painting " + std::to_string(seed),
+                    .picture = Grid<Rgb8>(width, height),
+                    .guides = land(width, height, seed)};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int label = exemplar.guides.label(x, y);

@@ -51,9 +51,8 @@ TEST(TerrainOperators, ProductsLieInTheGridOfTheResult) {
   const test::Folder folder;
   Raster<float> cone{
       striped_cone(), {600000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
-  TerrainOperators operators;
-  operators.hillshade = folder / "relief.tif";
-  operators.contours = folder / "lines.geojson";
+  const TerrainOperators operators{.hillshade = folder / "relief.tif",
+                                   .contours = folder / "lines.geojson"};
   Progress progress;
   write_products(cone, operators, progress);
   RasterSource source;

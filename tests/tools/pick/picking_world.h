@@ -42,10 +42,9 @@ inline const PaintedCones& painted_cones() {
     PaintedCones out;
     std::vector<ControlPair> all;
     for (const KnownPlace& place : known_places(out.dem, {})) {
-      ControlPair pair;
-      pair.position = place.position;
-      pair.altitude_m = place.altitude_m;
-      pair.lonlat = transform_point(out.dem.crs, "EPSG:4326", place.position);
+      const ControlPair pair{.position = place.position,
+                             .lonlat = transform_point(out.dem.crs, "EPSG:4326", place.position),
+                             .altitude_m = place.altitude_m};
       all.push_back(pair);
     }
     const SyntheticView truth = synthetic_view(ViewKind::cylinder, all);

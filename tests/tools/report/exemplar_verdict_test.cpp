@@ -86,10 +86,7 @@ TEST(ExemplarVerdict, TextureModelsAreNamedWithWhatTheyPaint) {
 
 TEST(ExemplarVerdict, TextAndJsonTellTheSame) {
   ExemplarFindings all = findings();
-  ExemplarSurvey survey;
-  survey.texels = 400000;
-  survey.excluded = 4000;
-  survey.classes = {sound()};
+  const ExemplarSurvey survey{.texels = 400000, .excluded = 4000, .classes = {sound()}};
   all.paintings.push_back({"p.png", 800, 500, survey});
   EXPECT_THAT(findings_text(all),
               AllOf(HasSubstr("p.png: 800 × 500 texels, 1.0 % of them never copied"),

@@ -47,10 +47,8 @@ RegisterReportInput example() {
   input.registration.findings = {finding(false, 4.0, 3.0, 2), finding(true, 90.0, 80.0, 0),
                                  finding(false, 5.0, 9.0, 2)};
   for (int i = 0; i < 3; ++i) {
-    ControlPair pair;
-    pair.pixel = {200.0 + 300.0 * i, 300.0};
-    pair.name = "Spitze " + std::to_string(i);
-    pair.line = i + 2;
+    const ControlPair pair{
+        .pixel = {200.0 + 300.0 * i, 300.0}, .name = "Spitze " + std::to_string(i), .line = i + 2};
     input.pairs.push_back(pair);
   }
   input.picture = Grid<glm::vec3>(120, 60, glm::vec3(0.5F));

@@ -12,12 +12,7 @@
 namespace belvedere {
 namespace {
 
-SkyParameters sky_of(SkyKind kind, std::uint64_t seed = 1) {
-  SkyParameters p;
-  p.kind = kind;
-  p.seed = seed;
-  return p;
-}
+SkyParameters sky_of(SkyKind kind, std::uint64_t seed = 1) { return {.kind = kind, .seed = seed}; }
 
 TEST(Clouds, SeedsHaveEveryKindOfSky) {
   std::set<SkyKind> kinds;

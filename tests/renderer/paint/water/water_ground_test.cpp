@@ -131,9 +131,8 @@ SyntheticWorld lake_before_bank(DeformParameters deform = {}) {
 
 MirrorSight mirror(const SyntheticWorld& world, const Camera& camera, PixelRect region,
                    int tile_size = 64) {
-  MirrorParameters p;
-  p.tile_size = tile_size;
-  p.sun_direction = glm::normalize(glm::dvec3(0.0, 1.0, 1.0));
+  const MirrorParameters p{.sun_direction = glm::normalize(glm::dvec3(0.0, 1.0, 1.0)),
+                           .tile_size = tile_size};
   return trace_mirror(world.terrain, world.surface,
                       Deformation(world.deform_parameters, world.viewer), *world.tracer, camera, p,
                       Grid<std::uint8_t>(region.width(), region.height(), 1), region);

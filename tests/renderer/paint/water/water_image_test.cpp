@@ -118,15 +118,14 @@ TEST(WaterImage, APartIsThatOfTheWhole) {
   const PixelRect wanted{2, 60, 9, 90};
   const int margin = water_image_margin_px(1.0);
   const PixelRect rect{2, 60 - margin, 9, 90 + margin};
-  MirrorSight part;
-  part.cosine = part_of(lake.sight.cosine, rect);
-  part.distance_m = part_of(lake.sight.distance_m, rect);
-  part.path_m = part_of(lake.sight.path_m, rect);
-  part.rise = part_of(lake.sight.rise, rect);
-  part.land_cover = part_of(lake.sight.land_cover, rect);
-  part.altitude_m = part_of(lake.sight.altitude_m, rect);
-  part.normal = part_of(lake.sight.normal, rect);
-  part.shadow = part_of(lake.sight.shadow, rect);
+  const MirrorSight part{.cosine = part_of(lake.sight.cosine, rect),
+                         .distance_m = part_of(lake.sight.distance_m, rect),
+                         .path_m = part_of(lake.sight.path_m, rect),
+                         .rise = part_of(lake.sight.rise, rect),
+                         .land_cover = part_of(lake.sight.land_cover, rect),
+                         .altitude_m = part_of(lake.sight.altitude_m, rect),
+                         .normal = part_of(lake.sight.normal, rect),
+                         .shadow = part_of(lake.sight.shadow, rect)};
   const WaterImage some =
       paint_water_image(part, rect, lake.guidance, lake.palette, lake.parameters, wanted);
   EXPECT_TRUE(some.colour == part_of(whole.colour, wanted));
