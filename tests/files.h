@@ -93,5 +93,11 @@ inline std::string message_of(ErrorKind kind, const std::function<void()>& f) {
   EXPECT_EQ(error.kind(), kind) << error.what();
   return error.what();
 }
+inline std::string usage_error(const std::function<void()>& f) {
+  return message_of(ErrorKind::usage, f);
+}
+inline std::string input_error(const std::function<void()>& f) {
+  return message_of(ErrorKind::input, f);
+}
 
 }  // namespace belvedere::test

@@ -21,9 +21,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-using test::message_of;
-
-std::string usage_of(const std::function<void()>& f) { return message_of(ErrorKind::usage, f); }
+using test::input_error;
+using test::usage_error;
 
 double seconds(const std::function<void()>& f) {
   const auto start = std::chrono::steady_clock::now();
@@ -58,10 +57,11 @@ TEST(Config, KeepsOrderPlacesAndTypes) {
 }
 
 TEST(Config, SyntaxErrorsNameThePlace) {
-  EXPECT_THAT(usage_of([] { parse_config("a = 1\nb = = 2\n", "s.toml"); }),
+  EXPECT_THAT(usage_error([] { parse_config("a = 1\nb = = 2\n", "s.toml"); }),
               StartsWith("s.toml:2:5: "));
-  EXPECT_THAT(usage_of([] { parse_config("a = 1\na = 2\n", "s.toml"); }), StartsWith("s.toml:2:"));
-  EXPECT_THAT(usage_of([] { parse_config("a = 'open\n", "s.toml"); }), StartsWith("s.toml:1:"));
+  EXPECT_THAT(usage_error([] { parse_config("a = 1\na = 2\n", "s.toml"); }),
+              StartsWith("s.toml:2:"));
+  EXPECT_THAT(usage_error([] { parse_config("a = 'open\n", "s.toml"); }), StartsWith("s.toml:1:"));
 }
 
 // A backslash in "…" begins an escape: what fails on it or contains what it stands for says so.
@@ -72,7 +72,7 @@ TEST(Config, BackslashesInPathsAreExplained) {
     EXPECT_EQ(error.where().substr(0, 9), "s.toml:1:") << text;
     EXPECT_THAT(error.allowed(), HasSubstr("single quotation marks")) << text;
   }
-  EXPECT_THAT(usage_of([] { parse_config("a = \"open\n", "s.toml"); }),
+  EXPECT_THAT(usage_error([] { parse_config("a = \"open\n", "s.toml"); }),
               testing::Not(HasSubstr("single quotation")));
   const ConfigValue root = parse_config("a = \"C:\\new\\tab.tif\"\nb = 'C:\\new'\n", "s.toml");
   const ConfigTable& table = as_table(root, "s.toml");
@@ -91,9 +91,9 @@ TEST(Config, TextIsUtf8WithOrWithoutAMark) {
                      "s.toml")
                 .size(),
             2U);
-  EXPECT_THAT(usage_of([] { parse_config("a = 1\n# W\xf6rner\n", "s.toml"); }),
+  EXPECT_THAT(usage_error([] { parse_config("a = 1\n# W\xf6rner\n", "s.toml"); }),
               testing::AllOf(StartsWith("s.toml:2:4: "), HasSubstr("iconv")));
-  EXPECT_THAT(usage_of([] {
+  EXPECT_THAT(usage_error([] {
                 parse_config(std::string("\xff\xfe"
                                          "a\0=\0",
                                          6),
@@ -106,7 +106,7 @@ TEST(Config, TextIsUtf8WithOrWithoutAMark) {
 TEST(Config, BrokenHeadersAreSyntaxErrors) {
   for (const char* header : {"[=a]", "[[[a]]]", "[[ ]]", "[,]", "[\n", "[[\na]]"})
     for (const std::string before : {"", "b = 1\nc = \"\"\"\n\"\"\"\n"})
-      EXPECT_THAT(usage_of([&] { parse_config(before + header + "\nd = 2\n", "s.toml"); }),
+      EXPECT_THAT(usage_error([&] { parse_config(before + header + "\nd = 2\n", "s.toml"); }),
                   StartsWith(before.empty() ? "s.toml:1:" : "s.toml:4:"))
           << header;
   EXPECT_EQ(as_string(parse_config_value("=a", "--set"), "--set"), "=a");
@@ -128,9 +128,9 @@ TEST(Config, LettersBeyondAsciiBelongIntoQuotationMarks) {
 }
 
 TEST(Config, BrokenUtf8NamesThePlace) {
-  EXPECT_THAT(usage_of([] { parse_config("a = 1\nb = \"\xff\xfe\"\n", "s.toml"); }),
+  EXPECT_THAT(usage_error([] { parse_config("a = 1\nb = \"\xff\xfe\"\n", "s.toml"); }),
               StartsWith("s.toml:2:"));
-  EXPECT_THAT(usage_of([] { parse_config(std::string("a = \"\0\"\n", 8), "s.toml"); }),
+  EXPECT_THAT(usage_error([] { parse_config(std::string("a = \"\0\"\n", 8), "s.toml"); }),
               StartsWith("s.toml:1:"));
 }
 
@@ -148,7 +148,7 @@ TEST(Config, DeepNestingIsRefused) {
           "[" + times("a.") + "a]\n", times("["), "a = [" + times("{a.b=["),
           "a = [1,\n# [[[\n \"]\", '''\n]''', " + times("[")}) {
       std::string message;
-      EXPECT_LT(seconds([&] { message = usage_of([&] { parse_config(text, "deep.toml"); }); }),
+      EXPECT_LT(seconds([&] { message = usage_error([&] { parse_config(text, "deep.toml"); }); }),
                 1.0);
       EXPECT_THAT(message, AllOf(StartsWith("deep.toml:"), HasSubstr("100 levels")))
           << text.substr(0, 20);
@@ -161,7 +161,7 @@ TEST(Config, NestingUpToTheLimitIsRead) {
     return "a = " + std::string(depth, '[') + std::string(depth, ']');
   };
   EXPECT_NO_THROW(parse_config(nested(99), "x"));
-  EXPECT_THAT(usage_of([&] { parse_config(nested(101), "x"); }), HasSubstr("nested too deeply"));
+  EXPECT_THAT(usage_error([&] { parse_config(nested(101), "x"); }), HasSubstr("nested too deeply"));
   // Breadth is not depth: dots of numbers, many tables, brackets in strings and comments.
   std::string broad = "a = [";
   for (int i = 0; i < 5000; ++i) broad += "1.5, ";
@@ -177,12 +177,11 @@ TEST(Config, HugeTextIsRefusedUnread) {
   const std::string path = folder.write("huge.toml", "\n");
   std::filesystem::resize_file(path, 100'000'000);  // sparse: takes no disk
   std::string message;
-  EXPECT_LT(seconds([&] { message = usage_of([&] { read_config(path); }); }), 0.5);
+  EXPECT_LT(seconds([&] { message = usage_error([&] { read_config(path); }); }), 0.5);
   EXPECT_THAT(message, AllOf(HasSubstr("huge.toml"), HasSubstr("1 MiB")));
-  EXPECT_THAT(usage_of([&] { read_config("/dev/zero"); }), HasSubstr("1 MiB"));
-  EXPECT_THAT(message_of(ErrorKind::input, [] { read_config("/nowhere/x.toml"); }),
-              HasSubstr("/nowhere/x.toml"));
-  EXPECT_THAT(message_of(ErrorKind::input, [] { read_config("/tmp"); }), HasSubstr("folder"));
+  EXPECT_THAT(usage_error([&] { read_config("/dev/zero"); }), HasSubstr("1 MiB"));
+  EXPECT_THAT(input_error([] { read_config("/nowhere/x.toml"); }), HasSubstr("/nowhere/x.toml"));
+  EXPECT_THAT(input_error([] { read_config("/tmp"); }), HasSubstr("folder"));
 }
 
 // A program with a German locale: decimal commas, thousands separated by dots, in C++ streams and,
@@ -225,8 +224,8 @@ TEST(Config, CommandLineValues) {
   EXPECT_EQ(text("1.2.3"), "1.2.3");
   EXPECT_EQ(text(""), "");
   EXPECT_EQ(parse_config_value("3", "--set").position.line, 0);
-  EXPECT_THAT(usage_of([] { parse_config_value("[1, 2", "--set x"); }), StartsWith("--set x: "));
-  EXPECT_THAT(usage_of([] { parse_config_value("1\nother = 2", "--set x"); }),
+  EXPECT_THAT(usage_error([] { parse_config_value("[1, 2", "--set x"); }), StartsWith("--set x: "));
+  EXPECT_THAT(usage_error([] { parse_config_value("1\nother = 2", "--set x"); }),
               HasSubstr("one value"));
 }
 
@@ -234,12 +233,12 @@ TEST(Config, StrictAccessNamesFindingAndWhatIsAllowed) {
   const ConfigValue root = parse_config("n = \"abc\"\nx = nan\ni = 1.5\n", "p.toml");
   const ConfigTable& table = as_table(root, "p.toml");
   EXPECT_THAT(
-      usage_of([&] { as_number(*find(table, "n"), "p.toml"); }),
+      usage_error([&] { as_number(*find(table, "n"), "p.toml"); }),
       AllOf(StartsWith("p.toml:1:5: "), HasSubstr("the string \"abc\""), HasSubstr("a number")));
-  EXPECT_THAT(usage_of([&] { as_number(*find(table, "x"), "p.toml"); }), HasSubstr("finite"));
-  EXPECT_THAT(usage_of([&] { as_integer(*find(table, "i"), "p.toml"); }),
+  EXPECT_THAT(usage_error([&] { as_number(*find(table, "x"), "p.toml"); }), HasSubstr("finite"));
+  EXPECT_THAT(usage_error([&] { as_integer(*find(table, "i"), "p.toml"); }),
               HasSubstr("whole number"));
-  EXPECT_THAT(usage_of([&] {
+  EXPECT_THAT(usage_error([&] {
                 allow_only(table, {"name", "x", "i"}, "p.toml");
               }),
               AllOf(StartsWith("p.toml:1:1: "), HasSubstr("name, x, i")));

@@ -12,6 +12,7 @@ namespace belvedere {
 namespace {
 
 using test::message_of;
+using test::usage_error;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -62,10 +63,10 @@ TEST_F(InstructionSet, NarrowerOnesAreThereAndWiderOnesAreMissed) {
 }
 
 TEST_F(InstructionSet, UnknownNamesAreUsageErrors) {
-  EXPECT_THAT(message_of(ErrorKind::usage, [] { choose_instruction_set("mmx"); }),
+  EXPECT_THAT(usage_error([] { choose_instruction_set("mmx"); }),
               AllOf(HasSubstr("\"mmx\""), HasSubstr("avx2")));
   setenv("BELVEDERE_INSTRUCTION_SET", "neon", 1);
-  EXPECT_THAT(message_of(ErrorKind::usage, [] { machine_instruction_set(); }),
+  EXPECT_THAT(usage_error([] { machine_instruction_set(); }),
               AllOf(HasSubstr("BELVEDERE_INSTRUCTION_SET"), HasSubstr("neon")));
 }
 

@@ -49,7 +49,7 @@ TEST(ConfigReader, ReadsWhatIsThereAndLeavesTheRest) {
 TEST(ConfigReader, SaysWhereAndWhatIsAllowed) {
   const std::string name = "mine.toml";
   const auto message = [&](const std::string& text, const std::function<void(ConfigReader&)>& ask) {
-    return test::message_of(ErrorKind::usage, [&] {
+    return test::usage_error([&] {
       const ConfigValue value = parse_config(text, name);
       ConfigReader read(value, name);
       ask(read);

@@ -216,8 +216,7 @@ TEST(Proposals, AllFormatsHaveViews) {
 
 TEST(Proposals, RegionsThatCannotMakeAPictureAreRefusedWithAWayOut) {
   const auto refused = [](const CoarseGround& ground) {
-    return test::message_of(ErrorKind::input,
-                            [&] { require_region(ground, find_massifs(ground), "my.tif"); });
+    return test::input_error([&] { require_region(ground, find_massifs(ground), "my.tif"); });
   };
   EXPECT_THAT(
       refused(make_coarse_ground(
@@ -242,7 +241,7 @@ TEST(Proposals, NoViewThatFitsIsSaid) {
   const Massifs massifs = find_massifs(ground);
   const ViewSearch search{
       ground, massifs, {.towards_deg = 180.0, .from = test::position_km(30.0, -1.0)}};
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { propose_views(search); }),
+  EXPECT_THAT(test::input_error([&] { propose_views(search); }),
               AllOf(HasSubstr("no view from there"), HasSubstr("--from")));
 }
 

@@ -21,7 +21,7 @@ const FeatureKind& kind_of(const FeatureStyle& style, const std::string& word) {
 }
 
 std::string message(const std::string& text) {
-  return test::message_of(ErrorKind::usage, [&] { parse_feature_style(text, "mine.toml"); });
+  return test::usage_error([&] { parse_feature_style(text, "mine.toml"); });
 }
 
 TEST(FeatureStyle, BuiltInOnesKnowTheSameKindsAndTheWordsOfMaps) {
@@ -118,7 +118,7 @@ TEST(FeatureStyle, WhatIsWrongIsSaidAtItsPlace) {
               HasSubstr("a land-cover class"));
   EXPECT_THAT(message("version = 1\n[kinds.a]\nalso = [\"B\"]\n[kinds.b]\n"),
               HasSubstr("\"b\" names two kinds"));
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { load_feature_style("spring"); }),
+  EXPECT_THAT(test::usage_error([] { load_feature_style("spring"); }),
               AllOf(HasSubstr("spring"), HasSubstr("\"classic\", \"ski\"")));
 }
 
@@ -179,8 +179,7 @@ TEST_F(Sources, OrAreSaid) {
 
 TEST_F(Sources, AWordThatTheStyleDoesNotKnowIsSaidWithThoseItKnows) {
   const std::string file = write(line(""));
-  EXPECT_THAT(test::message_of(ErrorKind::usage,
-                               [&] { read({.file = file, .kind = "raod", .key = "features.3"}); }),
+  EXPECT_THAT(test::usage_error([&] { read({.file = file, .kind = "raod", .key = "features.3"}); }),
               AllOf(HasSubstr("features.3.kind"), HasSubstr("did you mean \"road\""),
                     HasSubstr("motorway")));
 }

@@ -257,7 +257,7 @@ TEST_F(GroundMaps, AFileThatLiesElsewhereIsSaidWithBothExtents) {
   EXPECT_NO_THROW(cover(loaded)) << "with a kind column they may be other than ground";
   loaded.scene.features[0].kind_of.clear();
   loaded.scene.features[0].kind = "river";
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { cover(loaded); }),
+  EXPECT_THAT(test::usage_error([&] { cover(loaded); }),
               AllOf(HasSubstr("map.geojson"), HasSubstr("none of 1 features lies on the terrain"),
                     HasSubstr("E 680000 … 704000")));
 }

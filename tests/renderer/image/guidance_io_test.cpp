@@ -200,7 +200,7 @@ TEST(GuidanceIo, TextsLongerThanTheFileAreRefused) {
     std::string bad = good;
     bad.replace(at + type.size(), 4, "\xff\xff\xff\x7f");
     test::write_bytes(path, bad);
-    EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_guidance(path); }),
+    EXPECT_THAT(test::input_error([&] { read_guidance(path); }),
                 testing::HasSubstr("longer than the file"));
     ++texts;
   }

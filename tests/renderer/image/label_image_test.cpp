@@ -71,7 +71,7 @@ TEST_F(LabelImage, NumbersThatAreNoClassAreNamedWithTheirPosition) {
   rows[20 * 2 + 5] = rows[20 * 2 + 6] = '\xc8';
   rows[20 * 9 + 1] = '\x64';
   const std::string path = write("b.png", 0, rows);
-  const std::string message = test::message_of(ErrorKind::input, [&] { read_class_mask(path); });
+  const std::string message = test::input_error([&] { read_class_mask(path); });
   EXPECT_NE(message.find("100 (1 pixels, the first at 1, 9)"), std::string::npos) << message;
   EXPECT_NE(message.find("200 (2 pixels, the first at 5, 2)"), std::string::npos) << message;
 }

@@ -65,8 +65,7 @@ TEST(LabelFiles, GeoJsonSpeaksLongitudeAndLatitude) {
   std::snprintf(text, sizeof text, "%.7f", position.x);
   EXPECT_THAT(json, HasSubstr(text));
   EXPECT_THAT(json, HasSubstr("\"outcome\": \"placed\""));
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { labels_geojson(one_label("A"), ""); }),
-              HasSubstr("no CRS"));
+  EXPECT_THAT(test::usage_error([] { labels_geojson(one_label("A"), ""); }), HasSubstr("no CRS"));
 }
 
 }  // namespace

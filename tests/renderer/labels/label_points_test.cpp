@@ -82,7 +82,7 @@ TEST_F(LabelPoints, StrangeKindsAreSaidAndSetAsTheFirst) {
 
 TEST_F(LabelPoints, WrongNumbersAreRefused) {
   const auto message = [&](const std::string& text) {
-    return test::message_of(ErrorKind::usage, [&] { read(text); });
+    return test::usage_error([&] { read(text); });
   };
   EXPECT_THAT(message("name,rank,east,north\nA,first,1,2\n"), HasSubstr("points.csv:2"));
   EXPECT_THAT(message("name,rank,east,north\nA,12,1,2\n"), HasSubstr("1 … 9"));
@@ -90,17 +90,14 @@ TEST_F(LabelPoints, WrongNumbersAreRefused) {
 }
 
 TEST_F(LabelPoints, NamesThatAreNoTextAndFilesWithoutAnyAreRefused) {
-  EXPECT_THAT(
-      test::message_of(ErrorKind::input, [&] { read("name,east,north\nA,1,2\n\xD6tztal,1,2\n"); }),
-      testing::AllOf(HasSubstr("points.csv:3"), HasSubstr("UTF-8")));
+  EXPECT_THAT(test::input_error([&] { read("name,east,north\nA,1,2\n\xD6tztal,1,2\n"); }),
+              testing::AllOf(HasSubstr("points.csv:3"), HasSubstr("UTF-8")));
   for (const char* bad : {"\xC0\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE2\x82", "\x80"})
-    EXPECT_THAT(test::message_of(ErrorKind::input,
-                                 [&] { read(std::string("name,east,north\n") + bad + ",1,2\n"); }),
+    EXPECT_THAT(test::input_error([&] { read(std::string("name,east,north\n") + bad + ",1,2\n"); }),
                 HasSubstr("UTF-8"));
   EXPECT_EQ(read("name,east,north\nÖtztal 御嶽山 𝄞,1,2\n").size(), 1U);
   EXPECT_THAT(
-      test::message_of(ErrorKind::usage,
-                       [&] { read("name,east,north\n" + std::string(500, 'x') + ",1,2\n"); }),
+      test::usage_error([&] { read("name,east,north\n" + std::string(500, 'x') + ",1,2\n"); }),
       HasSubstr("none of its 1 points has a name of 1 … 80 letters"));
 }
 
@@ -123,8 +120,7 @@ TEST_F(LabelPoints, OfVectorFilesWithWhatColumnsTheyHave) {
   const std::string lines = folder_.write(
       "lines.geojson",
       R"({"type":"Feature","properties":{"name":"A"},"geometry":{"type":"LineString","coordinates":[[11,47],[11.1,47]]}})");
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [&] { read_label_points(lines, "EPSG:32632", style_, progress_); }),
+  EXPECT_THAT(test::input_error([&] { read_label_points(lines, "EPSG:32632", style_, progress_); }),
               HasSubstr("no points in it"));
 }
 

@@ -68,8 +68,7 @@ climb_m = 30
 
 TEST(LabelStyle, WhatIsWrongIsSaidAtItsPlace) {
   const auto message = [](const std::string& text) {
-    return test::message_of(ErrorKind::usage,
-                            [&] { parse_label_style("version = 1\n" + text, "mine.toml"); });
+    return test::usage_error([&] { parse_label_style("version = 1\n" + text, "mine.toml"); });
   };
   EXPECT_THAT(message("[kinds.hut]\nsize_mm = 0\n"),
               AllOf(HasSubstr("mine.toml:3"), HasSubstr("0.5 … 100")));
@@ -78,12 +77,10 @@ TEST(LabelStyle, WhatIsWrongIsSaidAtItsPlace) {
               HasSubstr("\"above\", \"beside\", \"over\", \"on\""));
   EXPECT_THAT(message("[kinds.hut]\nmak = \"dot\"\n"), HasSubstr("mak"));
   EXPECT_THAT(message(""), HasSubstr("no kinds"));
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [] { parse_label_style("[kinds.a]\n", "mine.toml"); }),
-      HasSubstr("version = 1"));
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { load_label_style("baroque"); }),
-              HasSubstr("\"classic\""));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [] { load_label_style("/no/such.toml"); }),
+  EXPECT_THAT(test::usage_error([] { parse_label_style("[kinds.a]\n", "mine.toml"); }),
+              HasSubstr("version = 1"));
+  EXPECT_THAT(test::usage_error([] { load_label_style("baroque"); }), HasSubstr("\"classic\""));
+  EXPECT_THAT(test::input_error([] { load_label_style("/no/such.toml"); }),
               HasSubstr("/no/such.toml"));
 }
 

@@ -105,7 +105,7 @@ TEST(Labels, FontsOfTheStyleAreRequired) {
   LabelStyle style = load_label_style("classic");
   EXPECT_NO_THROW(require_fonts(style)) << "tools/setup installs them";
   style.kinds[0].family = "No Such Font At All";
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { require_fonts(style); }),
+  EXPECT_THAT(test::input_error([&] { require_fonts(style); }),
               AllOf(HasSubstr("No Such Font At All"), HasSubstr("fonts-ebgaramond")));
 }
 

@@ -55,8 +55,7 @@ TEST(CopyPlan, PatchesAndSurroundingsAreTheScenes) {
                             "synthesis.class_dissimilarity={ \"forest/cloud\" = 0.25 }",
                             "synthesis.class_dissimilarity={ \"forest/forest\" = 0.25 }",
                             "synthesis.class_dissimilarity={ \"forest/shrub\" = 1.5 }"})
-    EXPECT_FALSE(test::message_of(ErrorKind::usage, [&] { test::small_scene({wrong}); }).empty())
-        << wrong;
+    EXPECT_FALSE(test::usage_error([&] { test::small_scene({wrong}); }).empty()) << wrong;
 }
 
 TEST(CopyPlan, AVeryFinePrintIsNoted) {

@@ -103,9 +103,8 @@ TEST(NamedPicture, AMarginWithoutNamesInThePictureIsPanoramaMargin) {
 }
 
 TEST(NamedPicture, AskingForNamesWithoutAnyIsRefused) {
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [] { test::small_scene({"labels.in_picture=true"}); }),
-      HasSubstr("labels.in_picture is set, but there are no labels"));
+  EXPECT_THAT(test::usage_error([] { test::small_scene({"labels.in_picture=true"}); }),
+              HasSubstr("labels.in_picture is set, but there are no labels"));
 }
 
 // Before the picture is made, not after it.
@@ -113,10 +112,9 @@ TEST(NamedPicture, WrongNamesAreSaidBeforeAnythingIsPainted) {
   const test::Folder folder;
   folder.write("far.csv", "name,east,north\nA,900000,900000\n");
   const LoadedScene scene = test::small_scene({"labels.points.0.file=\"far.csv\""}, folder.path());
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage,
-                       [&] { render(scene, folder / "out", {.cache = test::shared_cache()}, {}); }),
-      HasSubstr("none of 1 points lies on the terrain"));
+  EXPECT_THAT(test::usage_error(
+                  [&] { render(scene, folder / "out", {.cache = test::shared_cache()}, {}); }),
+              HasSubstr("none of 1 points lies on the terrain"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out/panorama.png"));
 }
 

@@ -118,8 +118,8 @@ TEST_F(PaintedSceneCheck, AClassOfThePictureNeedsTexelsOrAFallback) {
   EXPECT_THAT(whole.inputs, SizeIs(2));
   // Water (1) and fields only: other classes of the hills must not be painted.
   test::write_painting(folder_, 2);
-  const std::string message = test::message_of(
-      ErrorKind::usage, [&] { check_scene(test::painted_scene(folder_), silent_progress()); });
+  const std::string message =
+      test::usage_error([&] { check_scene(test::painted_scene(folder_), silent_progress()); });
   EXPECT_THAT(message, AllOf(HasSubstr("small"), HasSubstr("forest"), HasSubstr("fallback"),
                              Not(HasSubstr("sky"))));
 }

@@ -30,7 +30,7 @@ class ScenePaints : public testing::Test {
     fs::resize_file(folder_ / "red.png", fs::file_size(folder_ / "red.png") / 2);
   }
   std::string refused(const LoadedScene& loaded) const {
-    return test::message_of(ErrorKind::input, [&] { require_inputs(loaded); });
+    return test::input_error([&] { require_inputs(loaded); });
   }
   test::Folder folder_;
 };
@@ -92,8 +92,8 @@ TEST(OutputColour, BadFilesAreNamedBeforeTheWork) {
   folder.write("printer.icc", "no profile");
   folder.write("show.ocio", "no config: [");
   const auto refused = [&](const std::string& setting) {
-    return test::message_of(
-        ErrorKind::input, [&] { read_output_colour(test::small_scene({setting}, folder.path())); });
+    return test::input_error(
+        [&] { read_output_colour(test::small_scene({setting}, folder.path())); });
   };
   EXPECT_THAT(refused("output.profile=printer.icc"), HasSubstr("printer.icc"));
   EXPECT_THAT(refused("output.ocio_config=show.ocio"), HasSubstr("show.ocio"));
@@ -117,7 +117,7 @@ TEST(OutputColour, TakesSpacesByNameAndPresses) {
     read_output_colour(
         test::small_scene({"output.colours=adobe-rgb", "output.profile=press.icc"}, folder.path()));
   };
-  EXPECT_THAT(test::message_of(ErrorKind::usage, both), HasSubstr("output.profile"));
+  EXPECT_THAT(test::usage_error(both), HasSubstr("output.profile"));
 }
 
 }  // namespace

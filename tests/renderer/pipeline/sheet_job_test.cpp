@@ -166,8 +166,7 @@ TEST_F(SheetJob, PartsOfAPlanMakeTheSameLayers) {
   render(scene(), folder_ / "one", shared(), request);
   plan_sheet(scene(), folder_ / "many", shared(), request);
   for (const int part : {2, 1}) make_part(scene(), folder_ / "many", part, 2, shared(), request);
-  EXPECT_THAT(test::message_of(ErrorKind::usage,
-                               [&] { make_part(scene(), folder_ / "many", 1, 2, shared()); }),
+  EXPECT_THAT(test::usage_error([&] { make_part(scene(), folder_ / "many", 1, 2, shared()); }),
               HasSubstr("results differ"));
   join_parts(scene(), folder_ / "many", 2, folder_ / "many", shared(), request);
   for (const char* file : {"panorama.tif", "panorama.ora", "panorama_layers.exr"})
@@ -178,16 +177,14 @@ TEST_F(SheetJob, PartsOfAPlanMakeTheSameLayers) {
 
 TEST_F(SheetJob, LayersAreOfTheProgramsOwnColours) {
   EXPECT_THAT(
-      test::message_of(ErrorKind::usage,
-                       [&] { render(scene(), folder_.path(), shared(), {.layers = {"xcf"}}); }),
+      test::usage_error([&] { render(scene(), folder_.path(), shared(), {.layers = {"xcf"}}); }),
       HasSubstr("ora, psd, exr"));
   folder_.write("show.ocio", "no matter what");
   const LoadedScene other =
       parse_scene(wide_scene, "wide.toml", folder_.path(),
                   {.data_folders = {}, .settings = {"output.ocio_config=show.ocio"}});
   EXPECT_THAT(
-      test::message_of(ErrorKind::usage,
-                       [&] { render(other, folder_.path(), shared(), {.layers = {"ora"}}); }),
+      test::usage_error([&] { render(other, folder_.path(), shared(), {.layers = {"ora"}}); }),
       HasSubstr("ocio_config"));
 }
 
@@ -276,19 +273,17 @@ TEST_F(SheetJob, MatchesAreThoseThePictureWasCopiedBy) {
   EXPECT_GT(copied, 2000);
   EXPECT_THAT(read_image_info(folder_ / "part/match.exr").notes.at("belvedere:matched_pictures"),
               testing::StartsWith("240 180 "));
-  EXPECT_THAT(test::message_of(ErrorKind::usage,
-                               [&] {
-                                 render(scene({"synthesis.enabled=false"}), folder_ / "no",
-                                        shared(), {.matches = true});
-                               }),
+  EXPECT_THAT(test::usage_error([&] {
+                render(scene({"synthesis.enabled=false"}), folder_ / "no", shared(),
+                       {.matches = true});
+              }),
               HasSubstr("--match"));
 }
 
 TEST_F(SheetJob, APartOutsideOfTheSheetIsRefused) {
   for (const PixelRect part : {PixelRect{0, 0, 0, 5}, {1090, 0, 1101, 5}, {-1, 0, 5, 5}})
     EXPECT_THAT(
-        test::message_of(ErrorKind::usage,
-                         [&] { render(scene(), folder_.path(), shared(), {.part = part}); }),
+        test::usage_error([&] { render(scene(), folder_.path(), shared(), {.part = part}); }),
         HasSubstr("1100 × 130"));
 }
 
@@ -329,9 +324,8 @@ TEST_F(SheetJob, PartsInAnyOrderJoinToTheSameBytes) {
   for (const int part : {3, 1, 3}) make_part(scene(), folder_.path(), part, 3, shared());
   // Missing pieces are named; a damaged piece counts as missing, and is made again.
   const auto expect_missing = [&](const std::string& which) {
-    const std::string message = test::message_of(ErrorKind::input, [&] {
-      join_parts(scene(), folder_.path(), 3, folder_.path(), shared());
-    });
+    const std::string message = test::input_error(
+        [&] { join_parts(scene(), folder_.path(), 3, folder_.path(), shared()); });
     EXPECT_THAT(message, HasSubstr(which));
     EXPECT_THAT(message, HasSubstr(" of 3 is missing or incomplete"));
     EXPECT_THAT(message, HasSubstr("missing"));
@@ -353,10 +347,9 @@ TEST_F(SheetJob, PartsInAnyOrderJoinToTheSameBytes) {
   join_parts(scene(), folder_.path(), 3, folder_.path(), shared());
   expect_same_files(whole(), folder_.path());
   EXPECT_THAT(
-      test::message_of(ErrorKind::usage,
-                       [&] { make_part(scene({"seed=9"}), folder_.path(), 1, 3, shared()); }),
+      test::usage_error([&] { make_part(scene({"seed=9"}), folder_.path(), 1, 3, shared()); }),
       HasSubstr("scene differs"));
-  test::message_of(ErrorKind::usage, [&] { make_part(scene(), folder_.path(), 4, 3, shared()); });
+  test::usage_error([&] { make_part(scene(), folder_.path(), 4, 3, shared()); });
 }
 
 }  // namespace

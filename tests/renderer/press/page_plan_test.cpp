@@ -82,7 +82,7 @@ TEST(PagePlan, TilesCoverThePicture) {
 
 TEST(PagePlan, RefusesWhatCannotBe) {
   const auto refused = [](glm::dvec2 picture, const PageParameters& p) {
-    return test::message_of(ErrorKind::usage, [&] { plan_pages(picture, p); });
+    return test::usage_error([&] { plan_pages(picture, p); });
   };
   EXPECT_THAT(refused({6000, 100}, {}), HasSubstr("5080"));
   EXPECT_THAT(refused({300, 100}, {.bleed_mm = 3.0, .paper_mm = glm::dvec2(210, 297)}),
@@ -107,7 +107,7 @@ TEST(VectorPage, IsAPageOfTheSizeAsked) {
 TEST(VectorPage, SaysWhatIsNoSvg) {
   const test::Folder folder;
   const auto refused = [](const std::string& file) {
-    return test::message_of(ErrorKind::input, [&] { svg_as_pdf(file, {100, 100}); });
+    return test::input_error([&] { svg_as_pdf(file, {100, 100}); });
   };
   EXPECT_THAT(refused(folder.write("a.svg", "no drawing")), HasSubstr("cannot be read as SVG"));
   EXPECT_THAT(refused(folder / "absent.svg"), HasSubstr("file not found"));

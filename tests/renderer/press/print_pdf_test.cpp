@@ -190,11 +190,10 @@ TEST_F(PrintPdf, FaultsLeaveNoFile) {
   const auto no_size = [&] {
     write_print_pdf(folder_ / "b.pdf", find_press_picture(folder_ / "b.png"), {}, progress);
   };
-  EXPECT_THAT(test::message_of(ErrorKind::usage, no_size), HasSubstr("--width-mm"));
+  EXPECT_THAT(test::usage_error(no_size), HasSubstr("--width-mm"));
   PdfParameters parameters;
   parameters.labels = folder_.write("text.svg", "no drawing");
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { write("c.pdf", parameters); }),
-              HasSubstr("text.svg"));
+  EXPECT_THAT(test::input_error([&] { write("c.pdf", parameters); }), HasSubstr("text.svg"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "c.pdf"));
   EXPECT_THAT(test::message_of(ErrorKind::output,
                                [&] {

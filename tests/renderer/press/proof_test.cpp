@@ -105,7 +105,7 @@ TEST(PressPicture, SaysWhatItCannotTake) {
   const Image picture(20, 10, glm::vec3(0.5F));
   test::write_pictures(folder / "panorama", {"tif", "exr"}, picture, {{}, test::press_profile()});
   const auto refused = [&](const std::string& path) {
-    return test::message_of(ErrorKind::input, [&] { find_press_picture(path); });
+    return test::input_error([&] { find_press_picture(path); });
   };
   EXPECT_THAT(refused(folder / "panorama.tif"), HasSubstr("CMYK"));
   EXPECT_THAT(refused(folder / "panorama.exr"), HasSubstr("linear light"));

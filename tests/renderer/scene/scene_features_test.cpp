@@ -53,7 +53,7 @@ kind = "lift"
 
 TEST(SceneFeatures, AKindIsNeeded) {
   const auto message = [](const std::string& text) {
-    return test::message_of(ErrorKind::usage, [&] { parse("version = 1\n" + text); });
+    return test::usage_error([&] { parse("version = 1\n" + text); });
   };
   EXPECT_THAT(message("[[features]]\nsource = \"roads.gpkg\"\n"),
               AllOf(HasSubstr("no kind"), HasSubstr("kind_of")));
@@ -67,7 +67,7 @@ TEST(SceneFeatures, FilesAreInputs) {
   const LoadedScene loaded = parse(
       "version = 1\n[[features]]\nsource = \"no_such.gpkg\"\nkind = \"road\"\norigin = \"a "
       "survey\"\nget_from = \"there\"\n");
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { require_scene_files(loaded); }),
+  EXPECT_THAT(test::input_error([&] { require_scene_files(loaded); }),
               AllOf(HasSubstr("features.0.source"), HasSubstr("a survey"), HasSubstr("there")));
 }
 

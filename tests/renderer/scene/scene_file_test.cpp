@@ -22,7 +22,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-using test::message_of;
+using test::input_error;
+using test::usage_error;
 
 TEST(SceneFile, ReadsEveryKindOfValue) {
   const Scene scene = scene_of(R"(
@@ -88,10 +89,10 @@ fallback = { shrub = "forest" }
 
 TEST(SceneFile, VersionIsRequiredAndComesFirst) {
   const auto parse = [](const std::string& text) { parse_scene(text, "s.toml", ".", {}); };
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { parse("title = \"x\"\n"); }),
+  EXPECT_THAT(usage_error([&] { parse("title = \"x\"\n"); }),
               AllOf(HasSubstr("version is missing"), HasSubstr("version = 1")));
   // The other keys of a later format are not reported.
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { parse("future = 1\nversion = 2\n"); }),
+  EXPECT_THAT(usage_error([&] { parse("future = 1\nversion = 2\n"); }),
               AllOf(StartsWith("s.toml:2:11: version is the number 2")));
 }
 
@@ -371,8 +372,7 @@ TEST(SceneFile, SceneFromAFile) {
   EXPECT_EQ(scene.folder, folder.path());
   EXPECT_EQ(find_scene_file(scene, scene.scene.terrain.sources.at(0).file),
             fs::canonical(folder / "here.tif"));
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_scene(folder / "none.toml", {}); }),
-              HasSubstr("none.toml"));
+  EXPECT_THAT(input_error([&] { read_scene(folder / "none.toml", {}); }), HasSubstr("none.toml"));
 }
 
 std::string text_of(const std::string& file) {

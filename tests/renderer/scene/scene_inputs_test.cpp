@@ -15,7 +15,8 @@ namespace belvedere {
 namespace {
 
 namespace fs = std::filesystem;
-using test::message_of;
+using test::input_error;
+using test::usage_error;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -50,9 +51,8 @@ TEST_F(SceneFolders, FilesAreFoundBesideTheSceneAndInDataFolders) {
   EXPECT_EQ(find_scene_file(scene, "alps/none.tif"), "");
   EXPECT_EQ(find_scene_file(scene, ""), "");
   EXPECT_EQ(find_named_file(scene, "palettes", "winter"), "winter");
-  EXPECT_THAT(
-      message_of(ErrorKind::input, [&] { find_named_file(scene, "palettes", "none.toml"); }),
-      HasSubstr("summer"));
+  EXPECT_THAT(input_error([&] { find_named_file(scene, "palettes", "none.toml"); }),
+              HasSubstr("summer"));
 }
 
 TEST_F(SceneFolders, PathsMayNotLeaveTheAllowedFolders) {
@@ -60,13 +60,11 @@ TEST_F(SceneFolders, PathsMayNotLeaveTheAllowedFolders) {
        {std::string("../secret/x.tif"), std::string("../secret/absent.tif"), path("secret/x.tif"),
         std::string("/etc/passwd"), std::string("../../../../../../../../etc/passwd"),
         std::string("../scenes_not/x.tif"), std::string("..")})
-    EXPECT_THAT(message_of(ErrorKind::usage,
-                           [&] { load("[[terrain.sources]]\nfile = \"" + file + "\"\n"); }),
+    EXPECT_THAT(usage_error([&] { load("[[terrain.sources]]\nfile = \"" + file + "\"\n"); }),
                 AllOf(StartsWith("s.toml:3:8: "), HasSubstr("outside"), HasSubstr("--data")))
         << file;
   EXPECT_THAT(
-      message_of(ErrorKind::usage,
-                 [&] { load("[[terrain.sources]]\nfile = \"../data/alps/dem.tif\"\n", false); }),
+      usage_error([&] { load("[[terrain.sources]]\nfile = \"../data/alps/dem.tif\"\n", false); }),
       HasSubstr("outside"));
   // Links: to a file, to a folder, through two of them, and one that leads into an allowed folder.
   fs::create_symlink("../secret/x.tif", path("scenes/link.tif"));
@@ -75,12 +73,9 @@ TEST_F(SceneFolders, PathsMayNotLeaveTheAllowedFolders) {
   fs::create_symlink("../data/alps/dem.tif", path("scenes/allowed.tif"));
   const LoadedScene scene = load("");
   for (const char* file : {"link.tif", "folder/x.tif", "link2.tif", "folder/none.tif"})
-    EXPECT_THAT(message_of(ErrorKind::usage, [&] { find_scene_file(scene, file); }),
-                HasSubstr("outside"))
-        << file;
+    EXPECT_THAT(usage_error([&] { find_scene_file(scene, file); }), HasSubstr("outside")) << file;
   EXPECT_EQ(find_scene_file(scene, "allowed.tif"), fs::canonical(path("data/alps/dem.tif")));
-  EXPECT_THAT(message_of(ErrorKind::usage,
-                         [&] { find_scene_file(scene, std::string("here.tif\0../x", 13)); }),
+  EXPECT_THAT(usage_error([&] { find_scene_file(scene, std::string("here.tif\0../x", 13)); }),
               HasSubstr("control characters"));
 }
 
@@ -100,7 +95,7 @@ picture = "scan.png"
 classes = "mask.png"
 optional = true
 )");
-  const std::string message = message_of(ErrorKind::input, [&] { require_scene_files(scene); });
+  const std::string message = input_error([&] { require_scene_files(scene); });
   EXPECT_THAT(
       message,
       AllOf(HasSubstr("2 files"), HasSubstr("alps/south.tif (terrain.sources.1.file)"),
@@ -120,15 +115,14 @@ TEST_F(SceneFolders, MissingFilesNameWhatIsNearlyCalledSo) {
       "[[terrain.sources]]\nfile = \"alps/Z\u00fcrich.tif\"\n");
   EXPECT_EQ(find_scene_file(scene, "Alps/DEM.tif"), "");
   EXPECT_THAT(
-      message_of(ErrorKind::input, [&] { require_scene_files(scene); }),
+      input_error([&] { require_scene_files(scene); }),
       AllOf(HasSubstr("Alps/DEM.tif (terrain.sources.0.file); there is \"" +
                       path("data/alps/dem.tif")),
             HasSubstr("(terrain.sources.1.file); there is a file whose name looks the same"),
             HasSubstr("NFD")));
   root_.write("scenes/mine.toml", "x");
-  EXPECT_THAT(
-      message_of(ErrorKind::input, [&] { find_named_file(scene, "palettes", "Mine.toml"); }),
-      HasSubstr("mine.toml\": upper and lower case differ"));
+  EXPECT_THAT(input_error([&] { find_named_file(scene, "palettes", "Mine.toml"); }),
+              HasSubstr("mine.toml\": upper and lower case differ"));
   EXPECT_THAT(missing_scene_file(scene, "alps/Dem.tif").found(), HasSubstr("alps/dem.tif"));
 }
 

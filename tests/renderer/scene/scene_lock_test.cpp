@@ -58,11 +58,9 @@ TEST(SceneLock, WhatIsNoLockIsAnInputErrorWithItsPlace) {
     std::string text = good;
     return text.replace(text.find(from), from.size(), to);
   };
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [&] { parse_lock(with("version = 1", "version = 2"), "x.lock"); }),
+  EXPECT_THAT(test::input_error([&] { parse_lock(with("version = 1", "version = 2"), "x.lock"); }),
               HasSubstr("format 2"));
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [&] { parse_lock(with("width = 800", "widht = 800"), "x.lock"); }),
+  EXPECT_THAT(test::input_error([&] { parse_lock(with("width = 800", "widht = 800"), "x.lock"); }),
               HasSubstr("x.lock"));
   EXPECT_THAT(test::message_of(ErrorKind::input,
                                [&] { parse_lock(with("width = 800", "width = 0"), "x.lock"); }),
@@ -70,10 +68,9 @@ TEST(SceneLock, WhatIsNoLockIsAnInputErrorWithItsPlace) {
   EXPECT_THAT(test::message_of(ErrorKind::input,
                                [&] { parse_lock(with("bytes = 1234567890123\n", ""), "x.lock"); }),
               HasSubstr("bytes"));
-  EXPECT_THAT(
-      test::message_of(ErrorKind::input, [&] { parse_lock("<<<<<<< ours\n" + good, "x.lock"); }),
-      HasSubstr("x.lock:1"));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [] { read_lock("/nowhere/x.lock"); }),
+  EXPECT_THAT(test::input_error([&] { parse_lock("<<<<<<< ours\n" + good, "x.lock"); }),
+              HasSubstr("x.lock:1"));
+  EXPECT_THAT(test::input_error([] { read_lock("/nowhere/x.lock"); }),
               AllOf(HasSubstr("/nowhere/x.lock"), HasSubstr("belvedere lock")));
 }
 
@@ -151,8 +148,8 @@ TEST_F(LockedScene, AnotherByteOfTheSameSizeIsFoundAlsoBehindAVrt) {
   std::string bytes = test::read_bytes(folder_ / "data/tiles/b.asc");
   bytes[bytes.size() - 2] = '5';
   folder_.write("data/tiles/b.asc", bytes);
-  const std::string message = test::message_of(
-      ErrorKind::input, [&] { require_locked_inputs(scene(), lock, "alps.toml"); });
+  const std::string message =
+      test::input_error([&] { require_locked_inputs(scene(), lock, "alps.toml"); });
   EXPECT_THAT(
       message,
       AllOf(HasSubstr("tiles/b.asc"), HasSubstr(lock.inputs[4].hash), HasSubstr(hash_bytes(bytes)),
@@ -160,8 +157,7 @@ TEST_F(LockedScene, AnotherByteOfTheSameSizeIsFoundAlsoBehindAVrt) {
   // An optional painting that is there now changes the picture as well.
   lock.inputs = find_inputs(scene());
   folder_.write("scene/p.png", "x");
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [&] { require_locked_inputs(scene(), lock, "alps.toml"); }),
+  EXPECT_THAT(test::input_error([&] { require_locked_inputs(scene(), lock, "alps.toml"); }),
               AllOf(HasSubstr("p.png"), HasSubstr("no such file in the lock")));
 }
 
@@ -186,8 +182,7 @@ TEST_F(LockedScene, InputsMoreOrFewerAreNamed) {
   SceneLock lock;
   lock.inputs = find_inputs(scene());
   lock.inputs[0].file = "older.tif";
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [&] { require_locked_inputs(scene(), lock, "alps.toml"); }),
+  EXPECT_THAT(test::input_error([&] { require_locked_inputs(scene(), lock, "alps.toml"); }),
               AllOf(HasSubstr("a.tif: not in the lock, now "), HasSubstr("older.tif: "),
                     HasSubstr("the scene does not need it")));
 }
@@ -204,8 +199,7 @@ TEST(SceneLock, TheSceneIsItsSettingsNotItsText) {
 
 TEST(SceneServers, AreAskedOnlyForRastersAndOnlyWithLeave) {
   const auto refused = [](const std::string& text) {
-    return test::message_of(ErrorKind::usage,
-                            [&] { parse_scene("version = 1\n" + text, "x.toml", ".", {}); });
+    return test::usage_error([&] { parse_scene("version = 1\n" + text, "x.toml", ".", {}); });
   };
   EXPECT_THAT(refused("[[terrain.sources]]\nfile = \"https://example.org/a.tif\"\n"),
               AllOf(HasSubstr("x.toml:3:8"), HasSubstr("--allow-http")));

@@ -61,7 +61,7 @@ TEST_F(PieceFile, APieceThatChangesWhileItIsReadIsNotTaken) {
   Grid<float> light(7, 5);
   Grid<std::uint8_t> id(7, 5);
   const auto read = [&] {
-    return test::message_of(ErrorKind::input, [&] {
+    return test::input_error([&] {
       read_piece_rows(path_, key, 20, 25, 10, {plane_of(light), plane_of(id)});
     });
   };
@@ -142,8 +142,7 @@ TEST(GuidanceChoice, NamesChannelsOfASheet) {
   EXPECT_THAT(*read_guidance_choice("Z,landcover.id"), ElementsAre("Z", "landcover.id"));
   EXPECT_TRUE(read_guidance_choice("none")->empty());
   for (const char* wrong : {"", "Z,", "Z,,N.X", "depth", "landcover", "none,Z", "z"}) {
-    const std::string message =
-        test::message_of(ErrorKind::usage, [&] { read_guidance_choice(wrong); });
+    const std::string message = test::usage_error([&] { read_guidance_choice(wrong); });
     EXPECT_THAT(message, HasSubstr("landcover.id")) << wrong;
     EXPECT_THAT(message, HasSubstr("none")) << wrong;
   }

@@ -65,7 +65,7 @@ TEST_F(WorkFolderTest, AnotherJobsPiecesAreRefusedByName) {
   JobIdentity other = job;
   other["dem.tif"] = "9";
   const auto resume = [&] { WorkFolder(position_, other, WorkMode::resume); };
-  EXPECT_THAT(test::message_of(ErrorKind::usage, resume), HasSubstr("dem.tif differs"));
+  EXPECT_THAT(test::usage_error(resume), HasSubstr("dem.tif differs"));
   EXPECT_TRUE(WorkFolder(position_, job, WorkMode::resume).has("panorama", small_rect))
       << "and are left alone";
 }
@@ -77,7 +77,7 @@ TEST_F(WorkFolderTest, WorkOfAnOlderVersionIsRefusedOrBegunAnew) {
   const std::string piece = position_ + "/panorama_0_0.piece";
   test::write_bytes(piece, "belvedere piece 0\nof another form");
   EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [&] { WorkFolder(position_, job, WorkMode::resume); }),
+      test::usage_error([&] { WorkFolder(position_, job, WorkMode::resume); }),
       testing::AllOf(HasSubstr("dem.tif"), HasSubstr("program"), HasSubstr("without --resume")));
   EXPECT_TRUE(std::filesystem::exists(piece)) << "and is left alone";
   const WorkFolder work(position_, job, WorkMode::begin);
@@ -92,7 +92,7 @@ TEST_F(WorkFolderTest, ACutListOfEntriesIsAnotherJobs) {
   const std::string whole = test::read_bytes(position_ + "/job.txt");
   for (std::size_t size = 0; size + 1 < whole.size(); ++size) {
     test::write_bytes(position_ + "/job.txt", whole.substr(0, size));
-    test::message_of(ErrorKind::usage, [&] { WorkFolder(position_, job, WorkMode::resume); });
+    test::usage_error([&] { WorkFolder(position_, job, WorkMode::resume); });
   }
 }
 
@@ -125,7 +125,7 @@ TEST_F(WorkFolderTest, AFolderThatDisappearsIsNamed) {
   std::filesystem::remove_all(position_);
   EXPECT_FALSE(work.has("panorama", small_rect));
   EXPECT_THAT(test::message_of(ErrorKind::output, [&] { keep(work, 2); }), HasSubstr("No such"));
-  test::message_of(ErrorKind::input, [&] { work.read_bytes("plan"); });
+  test::input_error([&] { work.read_bytes("plan"); });
 }
 
 TEST_F(WorkFolderTest, TheSecondRunIntoAFolderIsRefused) {
@@ -138,7 +138,7 @@ TEST_F(WorkFolderTest, TheSecondRunIntoAFolderIsRefused) {
 }
 
 TEST_F(WorkFolderTest, ManyMayJoinAPlan) {
-  test::message_of(ErrorKind::usage, [&] { WorkFolder(position_, job, WorkMode::join); });
+  test::usage_error([&] { WorkFolder(position_, job, WorkMode::join); });
   begin_shared_work(position_, job);
   const WorkFolder a(position_, job, WorkMode::join);
   const WorkFolder b(position_, job, WorkMode::join);
@@ -146,7 +146,7 @@ TEST_F(WorkFolderTest, ManyMayJoinAPlan) {
   EXPECT_TRUE(b.has("panorama", small_rect));
   begin_shared_work(position_, job);
   EXPECT_TRUE(b.has("panorama", small_rect)) << "planned again, nothing is lost";
-  test::message_of(ErrorKind::usage, [&] { begin_shared_work(position_, {{"scene", "other"}}); });
+  test::usage_error([&] { begin_shared_work(position_, {{"scene", "other"}}); });
 }
 
 TEST_F(WorkFolderTest, ARunThatCameToNothingLeavesNothing) {
@@ -186,7 +186,7 @@ TEST(JoinedPieces, RowsOfARegionComeFromAllPiecesThatTouchThem) {
     EXPECT_EQ(rows, part_of(sheet, {5, y0, 47, y1}));
   }
   Grid<std::uint16_t> rows(42, 1);
-  test::message_of(ErrorKind::input, [&] { joined.read("guidance", 3, 4, {plane_of(rows)}); });
+  test::input_error([&] { joined.read("guidance", 3, 4, {plane_of(rows)}); });
 }
 
 const JobIdentity scene_job{{"scene", "a"}};

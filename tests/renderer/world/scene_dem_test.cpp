@@ -132,7 +132,7 @@ TEST_F(TerrainOperators, TwoCellsAcrossAreGroundAndOneIsRefused) {
     if (columns == 2)
       EXPECT_EQ(open().dem.width(), 2);
     else
-      EXPECT_EQ(test::message_of(ErrorKind::input, open),
+      EXPECT_EQ(test::input_error(open),
                 fmt::format("terrain: too small: {} × {} cells\n  allowed: at least 2 × 2 cells: a "
                             "larger `extent`, smaller cells (`cell_m`) or more data",
                             columns, rows));

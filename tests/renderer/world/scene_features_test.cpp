@@ -201,8 +201,7 @@ TEST_F(SceneFeaturesInPictures, AFileWhoseFeaturesAllLieElsewhereIsSaidWithBothE
   const LoadedScene loaded = scene(block);
   const World world = make_world(loaded, silent_progress());
   EXPECT_THAT(
-      test::message_of(ErrorKind::usage,
-                       [&] { draw_scene_features(loaded, world, false, silent_progress()); }),
+      test::usage_error([&] { draw_scene_features(loaded, world, false, silent_progress()); }),
       AllOf(HasSubstr("none of 1 features"), HasSubstr("E 482500 … 485500"),
             HasSubstr("E 680000 … 688000")));
 }

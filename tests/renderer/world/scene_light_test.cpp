@@ -106,14 +106,13 @@ TEST(SceneLight, NotesAnOptionalFileThatIsMissing) {
               testing::Contains("light.regions.0 is left out: nowhere.gpkg is missing; the club"));
   const World beside = make_world(with(block + "optional = true\n" + cloud), silent_progress());
   ASSERT_NE(beside.light_field, nullptr) << "the cloud stays";
-  EXPECT_THAT(
-      test::message_of(ErrorKind::input, [&] { make_world(with(block), silent_progress()); }),
-      HasSubstr("nowhere.gpkg"));
+  EXPECT_THAT(test::input_error([&] { make_world(with(block), silent_progress()); }),
+              HasSubstr("nowhere.gpkg"));
 }
 
 TEST(SceneLight, RefusesWhatCannotBe) {
   const auto refused = [](const std::string& blocks) {
-    return test::message_of(ErrorKind::usage, [&] { make_world(with(blocks), silent_progress()); });
+    return test::usage_error([&] { make_world(with(blocks), silent_progress()); });
   };
   EXPECT_THAT(refused("[[light.regions]]\nturn_deg = 90\n"),
               HasSubstr("light.regions.0 has no position"));
@@ -130,7 +129,7 @@ TEST(SceneLight, RefusesWhatCannotBe) {
               HasSubstr("light.clouds.0 has no position"));
   LoadedScene night = with(turned);
   night.scene.sun.altitude_deg = -2.0;
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_world(night, silent_progress()); }),
+  EXPECT_THAT(test::usage_error([&] { make_world(night, silent_progress()); }),
               HasSubstr("below the horizon"));
 }
 

@@ -279,21 +279,17 @@ TEST_F(SceneClimateTest, AFactorMakesItDrierOrWetter) {
 TEST_F(SceneClimateTest, WhatIsMissingIsNamed) {
   folder_.write("stations.csv", "lon,lat,t_year\n11,47,5\n");
   const LoadedScene named = scene("[climate]\nstations = \"stations.csv\"\n");
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [&] { make_scene_climate(named, slope(), notes_); }),
-      AllOf(HasSubstr("altitude_m"), HasSubstr("stations.csv")));
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [&] { make_scene_climate(scene(""), slope(""), notes_); }),
-      HasSubstr("climate.latitude_deg"));
+  EXPECT_THAT(test::usage_error([&] { make_scene_climate(named, slope(), notes_); }),
+              AllOf(HasSubstr("altitude_m"), HasSubstr("stations.csv")));
+  EXPECT_THAT(test::usage_error([&] { make_scene_climate(scene(""), slope(""), notes_); }),
+              HasSubstr("climate.latitude_deg"));
   EXPECT_NEAR(make_scene_climate(scene("[climate]\nlatitude_deg = 60\n"), slope(""), notes_)
                   .position.latitude_deg.at(5, 5),
               60.0, 1e-9);
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [&] { scene("[climate]\nwind_from_deg = 400\n"); }),
-      HasSubstr("wind_from_deg"));
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [&] { scene("[climate]\nlapse_k_per_km = 20\n"); }),
-      HasSubstr("K/km"));
+  EXPECT_THAT(test::usage_error([&] { scene("[climate]\nwind_from_deg = 400\n"); }),
+              HasSubstr("wind_from_deg"));
+  EXPECT_THAT(test::usage_error([&] { scene("[climate]\nlapse_k_per_km = 20\n"); }),
+              HasSubstr("K/km"));
 }
 
 }  // namespace

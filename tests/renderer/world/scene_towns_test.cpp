@@ -122,7 +122,7 @@ TEST_F(SceneTowns, ThatRastersLeaveNoUseForAreNoted) {
 
 TEST_F(SceneTowns, RefuseWhatTheyDoNotUnderstand) {
   const auto refused = [&](const std::string& text) {
-    return test::message_of(ErrorKind::usage, [&] { scene(text); });
+    return test::usage_error([&] { scene(text); });
   };
   EXPECT_THAT(refused("[[land_cover.towns]]\nradius_m = 5\n"),
               HasSubstr("land_cover.towns.0 has no position"));
@@ -139,8 +139,7 @@ TEST_F(SceneTowns, RefuseWhatTheyDoNotUnderstand) {
                     HasSubstr("[[land_cover.towns]]")));
   EXPECT_NO_THROW(scene("[land_cover.settings]\ntown_highest_m = 900\n"));
   // A file that is not there is named before anything is read.
-  EXPECT_THAT(test::message_of(
-                  ErrorKind::input,
+  EXPECT_THAT(test::input_error(
                   [&] { require_scene_files(scene("[land_cover]\ntowns_file = \"none.csv\"\n")); }),
               HasSubstr("land_cover.towns_file"));
   // Degrees need a CRS.
@@ -148,7 +147,7 @@ TEST_F(SceneTowns, RefuseWhatTheyDoNotUnderstand) {
   bare.crs.clear();
   const LoadedScene degrees =
       scene("[[land_cover.towns]]\nposition_lonlat = [11.4, 47.2]\nradius_m = 9\n");
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_scene_towns(degrees, bare, notes_); }),
+  EXPECT_THAT(test::usage_error([&] { make_scene_towns(degrees, bare, notes_); }),
               HasSubstr("land_cover.towns.0.position_lonlat"));
 }
 

@@ -40,7 +40,7 @@ View view_of(const std::string& text, const Dem& dem = level()) {
 }
 
 std::string refused(const std::string& text, const Dem& dem = level()) {
-  return test::message_of(ErrorKind::usage, [&] { view_of(text, dem); });
+  return test::usage_error([&] { view_of(text, dem); });
 }
 
 const std::string centre = "[camera]\nposition = [500000, 5200000]\n";
@@ -187,16 +187,13 @@ TEST(ScenePlace, MetresAreTakenAsTheyAreAndDegreesConverted) {
 }
 
 TEST(ScenePlace, RefusesNeitherAndDegreesWithoutACoordinateSystem) {
-  EXPECT_THAT(
-      test::message_of(
-          ErrorKind::usage,
-          [] { resolve_place(ground(""), std::nullopt, std::nullopt, "deform.handles.0"); }),
-      HasSubstr("deform.handles.0: no position"));
-  EXPECT_THAT(test::message_of(ErrorKind::usage,
-                               [] {
-                                 resolve_place(ground(""), std::nullopt, glm::dvec2(9.0, 47.0),
-                                               "deform.handles.0");
-                               }),
+  EXPECT_THAT(test::usage_error([] {
+                resolve_place(ground(""), std::nullopt, std::nullopt, "deform.handles.0");
+              }),
+              HasSubstr("deform.handles.0: no position"));
+  EXPECT_THAT(test::usage_error([] {
+                resolve_place(ground(""), std::nullopt, glm::dvec2(9.0, 47.0), "deform.handles.0");
+              }),
               HasSubstr("deform.handles.0.position_lonlat"));
 }
 

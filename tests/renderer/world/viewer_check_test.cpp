@@ -31,8 +31,7 @@ Dem level_tyrol() {
 }
 
 std::string refusal(const GivenPosition& given, double max_m = 50000.0) {
-  return test::message_of(ErrorKind::usage,
-                          [&] { place_near_data(given, extent_of(level_tyrol()), max_m); });
+  return test::usage_error([&] { place_near_data(given, extent_of(level_tyrol()), max_m); });
 }
 
 TEST(ViewerCheck, DistancesCountFromTheSidesOfTheData) {
@@ -71,13 +70,13 @@ TEST(ViewerCheck, AViewerMayStandOutsideButNotFarAway) {
   camera.position = {685000.0, 5180000.0};  // four diagonals
   EXPECT_EQ(place_viewer(camera, dem), *camera.position);
   camera.position = {685000.0, 5160000.0};  // five and a half
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { place_viewer(camera, dem); }),
+  EXPECT_THAT(test::usage_error([&] { place_viewer(camera, dem); }),
               HasSubstr("92.0 km outside the data"));
   // A point far away is a direction, unless its numbers are mistaken.
   camera.look_at = {685000.0, 6000000.0};
   EXPECT_EQ(place_target(camera, dem), *camera.look_at);
   camera.look_at = {11.45, 47.45};
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { place_target(camera, dem); }),
+  EXPECT_THAT(test::usage_error([&] { place_target(camera, dem); }),
               AllOf(HasSubstr("camera.look_at"), HasSubstr("degrees?")));
   camera.look_at.reset();
   EXPECT_EQ(place_target(camera, dem), std::nullopt);
@@ -107,7 +106,7 @@ TEST(ViewerCheck, APictureWithoutGroundIsRefused) {
   EXPECT_THAT(notes_of({685000.0, 5230000.0}, 0.0, -5.0),
               ElementsAre(HasSubstr("22.0 km outside the data")));
   const auto refused = [](glm::dvec2 viewer, double azimuth_deg, double pitch_deg) {
-    return test::message_of(ErrorKind::usage, [&] { notes_of(viewer, azimuth_deg, pitch_deg); });
+    return test::usage_error([&] { notes_of(viewer, azimuth_deg, pitch_deg); });
   };
   EXPECT_THAT(refused(south, 180.0, -10.0),
               AllOf(HasSubstr("camera: no ground is in the picture"),
@@ -167,12 +166,11 @@ TEST(FoldCheck, GroundThatIsNotFoldedPasses) { EXPECT_THAT(Ground(100.0).check()
 
 TEST(FoldCheck, FoldsInThePictureAreRefusedUnlessAllowed) {
   Ground ground(1100.0);
-  const std::string message = test::message_of(ErrorKind::usage, [&] { ground.check(); });
+  const std::string message = test::usage_error([&] { ground.check(); });
   EXPECT_THAT(message, AllOf(HasSubstr("deform.handles.0 (Hochkar)"),
                              HasSubstr("in the picture around E 503"), HasSubstr("allow_folds")));
   ground.scene.handles[0].name.clear();
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { ground.check(); }),
-              HasSubstr("deform.handles.0: folds"));
+  EXPECT_THAT(test::usage_error([&] { ground.check(); }), HasSubstr("deform.handles.0: folds"));
   ground.scene.allow_folds = true;
   EXPECT_THAT(ground.check(), SizeIs(1));
 }

@@ -52,10 +52,9 @@ TEST(World, ItsValuesFitEachOther) {
 }
 
 TEST(World, APictureWithoutTerrainIsRefused) {
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage,
-                       [] { make_world(small_scene({"camera.pitch_deg=60"}), silent_progress()); }),
-      HasSubstr("no ground is in the picture"));
+  EXPECT_THAT(test::usage_error(
+                  [] { make_world(small_scene({"camera.pitch_deg=60"}), silent_progress()); }),
+              HasSubstr("no ground is in the picture"));
 }
 
 TEST(World, SharesTheTerrainThatIsThere) {
@@ -104,31 +103,25 @@ TEST(World, RefusesAMachineThatCannotBeforeItReadsAnything) {
 
 TEST(World, RefusesAnEyeBelowTheGroundBeforeLandCoverIsMade) {
   Stages stages;
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage,
-                       [&] {
-                         const World world = make_world(
-                             small_scene({"camera.position=[6000,6000]", "camera.height_m=-500"}),
-                             stages);
-                       }),
-      HasSubstr("below the ground"));
+  EXPECT_THAT(test::usage_error([&] {
+                const World world = make_world(
+                    small_scene({"camera.position=[6000,6000]", "camera.height_m=-500"}), stages);
+              }),
+              HasSubstr("below the ground"));
   EXPECT_THAT(stages.all, ElementsAre("synthetic terrain"));
 }
 
 TEST(World, RefusesFoldedGroundBeforeTheTracerIsBuilt) {
   Stages stages;
   EXPECT_THAT(
-      test::message_of(
-          ErrorKind::usage,
-          [&] {
-            const World world = make_world(
-                small_scene(
-                    {"camera.position=[6000,6000]", "camera.height_m=12000", "camera.pitch_deg=-90",
-                     "camera.field_of_view_deg=90",
-                     "deform.handles.0={ position = [6000, 6000], radius_m = 3000, core_m = "
-                     "1000, move_m = [2500, 0] }"}),
-                stages);
-          }),
+      test::usage_error([&] {
+        const World world = make_world(
+            small_scene({"camera.position=[6000,6000]", "camera.height_m=12000",
+                         "camera.pitch_deg=-90", "camera.field_of_view_deg=90",
+                         "deform.handles.0={ position = [6000, 6000], radius_m = 3000, core_m = "
+                         "1000, move_m = [2500, 0] }"}),
+            stages);
+      }),
       HasSubstr("folds"));
   EXPECT_THAT(stages.all, ElementsAre("synthetic terrain", "class rules", "generalize"));
 }
@@ -208,8 +201,7 @@ TEST(SceneMist, IsWhatTheSceneSays) {
 
 TEST(SceneMist, WhatIsMissingIsNamed) {
   const auto message = [](const char* mist) {
-    return test::message_of(ErrorKind::usage,
-                            [&] { test::small_scene({std::string("air.mist.0=") + mist}); });
+    return test::usage_error([&] { test::small_scene({std::string("air.mist.0=") + mist}); });
   };
   EXPECT_THAT(message("{ kind = \"sea\" }"), HasSubstr("to_m"));
   EXPECT_THAT(message("{ kind = \"lee\" }"), HasSubstr("position"));
@@ -240,7 +232,7 @@ TEST(SightLines, OfALevelPerspective) {
 TEST(SightLines, ParallelOnesMeetInNoEye) {
   CameraParameters camera;
   camera.projection = "oblique";
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { sight_lines(camera, 9); }),
+  EXPECT_THAT(test::usage_error([&] { sight_lines(camera, 9); }),
               AllOf(HasSubstr("camera.projection"), HasSubstr("\"perspective\"")));
 }
 

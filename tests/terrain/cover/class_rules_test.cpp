@@ -283,7 +283,7 @@ TEST(ClassRules, TownsAreNoParametersAnyMore) {
   const std::string file = folder.write(
       "r.toml",
       "version = 1\n[parameters]\ntown_1_east = 5\n[[layers]]\nclass = \"forest\"\nwhen = \"1\"\n");
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read_class_rules(file); }),
+  EXPECT_THAT(test::usage_error([&] { read_class_rules(file); }),
               testing::AllOf(testing::HasSubstr("r.toml:3:"), testing::HasSubstr("town_1_east"),
                              testing::HasSubstr("towns of the scene")));
   for (const char* name : {"town_highest_m", "town_1", "my_town_1_east"})

@@ -13,7 +13,7 @@
 namespace belvedere {
 namespace {
 
-using test::message_of;
+using test::input_error;
 using testing::HasSubstr;
 
 constexpr double east = 500000.0;
@@ -69,9 +69,8 @@ TEST_F(GroundImage, FinerPicturesAreAveraged) {
 
 TEST_F(GroundImage, RefusesWhatIsNoPictureOfTheGround) {
   const auto refused = [](const std::string& path, double moved_m) {
-    return message_of(ErrorKind::input, [&] {
-      read_ground_image(path, frame_of(20, 16, 30.0, moved_m), true, silent_progress());
-    });
+    return input_error(
+        [&] { read_ground_image(path, frame_of(20, 16, 30.0, moved_m), true, silent_progress()); });
   };
   const std::string colour = write(3, frame_of(20, 16, 30.0));
   EXPECT_THAT(refused(colour, 90000.0), HasSubstr("does not cover the terrain"));

@@ -262,8 +262,8 @@ TEST(Towns, ThreadsChangeNothing) {
   EXPECT_EQ(town_field(find_town_sites(valley.ground(), {}), valley.ground()), many);
 }
 
-using test::message_of;
 using test::Notes;
+using test::usage_error;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -301,7 +301,7 @@ TEST(TownFile, RefusesWhatIsNoSize) {
   const test::Folder folder;
   const auto refused = [&](const std::string& text) {
     const std::string file = folder.write("t.csv", text);
-    return message_of(ErrorKind::usage, [&] { read_towns(file, "", silent_progress()); });
+    return usage_error([&] { read_towns(file, "", silent_progress()); });
   };
   EXPECT_THAT(refused("name,east,north,size\nA,1,2,3\n"),
               AllOf(HasSubstr("name, east, north, size"), HasSubstr("radius_m or population")));

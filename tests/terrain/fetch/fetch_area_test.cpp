@@ -57,13 +57,11 @@ TEST(FetchFrame, FollowsHemisphereZoneAndPole) {
   for (const glm::dvec2 at : {glm::dvec2(0.0, 89.9), glm::dvec2(10.0, -90.0)}) {
     FetchParameters parameters;
     parameters.at_lonlat = at;
-    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { fetch_frame(parameters, 30.0); }),
-                HasSubstr("pole"));
+    EXPECT_THAT(test::usage_error([&] { fetch_frame(parameters, 30.0); }), HasSubstr("pole"));
   }
   FetchParameters swapped;
   swapped.at_lonlat = {47.0, 111.0};
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { fetch_frame(swapped, 30.0); }),
-              HasSubstr("longitude first"));
+  EXPECT_THAT(test::usage_error([&] { fetch_frame(swapped, 30.0); }), HasSubstr("longitude first"));
 }
 
 TEST_F(FetchArea, FourTilesJoinWithoutASeam) {
@@ -143,9 +141,7 @@ TEST_F(FetchArea, AMissingTileBesideHighGroundIsNoSea) {
   const MapSource source = elevation_source();
   serve_tile(source, 44, 39, [](double, double) { return 1400.0; });
   serve();
-  const std::string message = test::message_of(ErrorKind::input, [&] {
-    fetch(parameters({44.5, 39.95}, 40.0));
-  });
+  const std::string message = test::input_error([&] { fetch(parameters({44.5, 39.95}, 40.0)); });
   EXPECT_THAT(message,
               AllOf(HasSubstr("N40E044"), HasSubstr("not sea"), HasSubstr("copernicus_glo90")));
   EXPECT_FALSE(std::filesystem::exists(path("out/elevation.tif")));
@@ -162,9 +158,7 @@ TEST_F(FetchArea, OnlyTheMissingTileBesideHighGroundIsNamed) {
   serve_tile(source, 44, 39, slope);
   serve_tile(source, 45, 40, slope);
   serve();
-  const std::string message = test::message_of(ErrorKind::input, [&] {
-    fetch(parameters({45.0, 40.0}, 40.0));
-  });
+  const std::string message = test::input_error([&] { fetch(parameters({45.0, 40.0}, 40.0)); });
   EXPECT_THAT(message, HasSubstr("the tiles N40E044, and the ground next to them is not sea"));
 }
 
@@ -173,18 +167,15 @@ TEST_F(FetchArea, AdjacentMissingTilesAreJudgedTogether) {
   const MapSource source = elevation_source();
   serve_tile(source, 44, 39, [](double, double) { return 1400.0; });
   serve();
-  const std::string message = test::message_of(ErrorKind::input, [&] {
-    fetch(parameters({45.0, 40.0}, 40.0));
-  });
+  const std::string message = test::input_error([&] { fetch(parameters({45.0, 40.0}, 40.0)); });
   EXPECT_THAT(message, AllOf(HasSubstr("N40E044"), HasSubstr("N39E045"), HasSubstr("N40E045")));
 }
 
 TEST_F(FetchArea, NothingAtAllIsAnError) {
   serve();
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [&] {
-                                 fetch(parameters({-30.5, 20.5}, 40.0));
-                               }),
+  EXPECT_THAT(test::input_error([&] {
+                fetch(parameters({-30.5, 20.5}, 40.0));
+              }),
               HasSubstr("none of the 1 tiles"));
 }
 
@@ -193,8 +184,7 @@ TEST_F(FetchArea, OtherMeaningsOfMissingTiles) {
   serve();
   FetchParameters p = parameters({9.95, 42.5}, 50.0);
   p.elevation = write("strict.toml", elevation_toml(120, "missing = \"error\""));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { fetch(p); }),
-              HasSubstr("lacks the tiles N42E010"));
+  EXPECT_THAT(test::input_error([&] { fetch(p); }), HasSubstr("lacks the tiles N42E010"));
   p.elevation = write("holes.toml", elevation_toml(120, "missing = \"nothing\""));
   fetch(p);
   const Raster<float> dem = elevation();
@@ -206,18 +196,16 @@ TEST_F(FetchArea, ATileOfAnotherGridIsRefused) {
   const std::string elsewhere = serve_tile(source, 12, 47, slant);
   std::filesystem::copy_file(elsewhere, path("served/dem/N47_00_E011_00_DEM.tif"));
   serve();
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [&] {
-                                 fetch(parameters({11.5, 47.5}, 40.0));
-                               }),
+  EXPECT_THAT(test::input_error([&] {
+                fetch(parameters({11.5, 47.5}, 40.0));
+              }),
               AllOf(HasSubstr("N47_00_E011"), HasSubstr("the tile begins at 11.99")));
   std::filesystem::remove(path("served/dem/N47_00_E011_00_DEM.tif"));
   std::filesystem::copy_file(serve_tile(elevation_source(60), 11, 47, slant),
                              path("served/dem/other.tif"));
   FetchParameters refreshed = parameters({11.5, 47.5}, 40.0);
   refreshed.refresh = true;
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { fetch(refreshed); }),
-              HasSubstr("60 × 60 cells"));
+  EXPECT_THAT(test::input_error([&] { fetch(refreshed); }), HasSubstr("60 × 60 cells"));
 }
 
 // Codes are unchanged; where tiles are missing, low ground is sea and the rest unknown.

@@ -141,14 +141,13 @@ TEST(MapSource, MistakesNamePlaceAndWhatIsAllowed) {
         Case{"credit =", "credits =", "credit"},
         Case{"licence = ", "legend = \"x\"\nlicence = ", "legend for an elevation source"},
         Case{"https://copernicus-dem-30m.s3.amazonaws.com", "https://me:word@host", "password"}}) {
-    const std::string message = test::message_of(
-        ErrorKind::usage, [&] { parse_map_source(with(c.from, c.to), "mine.toml"); });
+    const std::string message =
+        test::usage_error([&] { parse_map_source(with(c.from, c.to), "mine.toml"); });
     EXPECT_THAT(message, HasSubstr(c.message)) << c.from << " → " << c.to;
   }
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { read_map_source("copernicus_glo3"); }),
+  EXPECT_THAT(test::usage_error([] { read_map_source("copernicus_glo3"); }),
               HasSubstr("copernicus_glo30"));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [] { read_map_source("none.toml"); }),
-              HasSubstr("none.toml"));
+  EXPECT_THAT(test::input_error([] { read_map_source("none.toml"); }), HasSubstr("none.toml"));
 }
 
 }  // namespace

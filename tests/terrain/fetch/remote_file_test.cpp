@@ -107,7 +107,7 @@ TEST_F(Remote, ThereIsAnEndToPatience) {
     clear_cache(path("cache"));
     serve_noise(modes);
     asked_before = requests().size();
-    return test::message_of(ErrorKind::input, [&] { read(0, 2 * mib, true, tried); });
+    return test::input_error([&] { read(0, 2 * mib, true, tried); });
   };
   EXPECT_THAT(fails({"fail=1000"}, 3), AllOf(HasSubstr("503"), HasSubstr("file.bin")));
   EXPECT_EQ(requests().size() - asked_before, 4U);  // three retries
@@ -145,12 +145,11 @@ TEST_F(Remote, OfflineWhatIsKeptServes) {
   EXPECT_TRUE(out == bytes.substr(mib + 7, 100));
   EXPECT_THAT(progress_.notes, HasSubstr("using cached properties"));
   RemoteFile more(address, {client, cache_, progress_, now_, false});
-  const std::string message =
-      test::message_of(ErrorKind::input, [&] { more.read(3 * mib, 100, out.data()); });
+  const std::string message = test::input_error([&] { more.read(3 * mib, 100, out.data()); });
   EXPECT_THAT(message, AllOf(HasSubstr("connection refused"), HasSubstr("--mirror")));
   EXPECT_TRUE(more.is_lost());
   RemoteFile nowhere("http://no-such-name.invalid/a.tif", {client, cache_, progress_, now_, false});
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { nowhere.describe(); }),
+  EXPECT_THAT(test::input_error([&] { nowhere.describe(); }),
               AllOf(HasSubstr("no-such-name.invalid"), HasSubstr("cannot resolve host")));
 }
 
@@ -220,7 +219,7 @@ TEST_F(Remote, DamageIsAskedForAgain) {
         .parts[0]
         .cells;
   };
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { cells(cache_); }),
+  EXPECT_THAT(test::input_error([&] { cells(cache_); }),
               AllOf(HasSubstr("N47_00_E011"), HasSubstr("damaged")));
   test::write_bytes(file, good);
   EXPECT_EQ(cells(cache_), cells(no_cache()));

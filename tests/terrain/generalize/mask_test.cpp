@@ -84,7 +84,7 @@ TEST_F(MaskFile, HardEdgesOnOtherCellsStayInTheirRange) {
 
 TEST_F(MaskFile, SaysWhatIsWrong) {
   const auto message = [&](const RasterSource& source) {
-    return test::message_of(ErrorKind::input, [&] { read(source); });
+    return test::input_error([&] { read(source); });
   };
   EXPECT_NE(message(mask_of([](int, int) { return 300; })).find("300"), std::string::npos);
   EXPECT_NE(message(mask_of([](int x, int) { return x == 3 ? -2 : 1; })).find("-2"),

@@ -62,13 +62,12 @@ TEST(Csv, ALineThatNamesTheSeparatorIsNoHeader) {
 }
 
 TEST(Csv, Utf16IsRefusedWithTheRemedy) {
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [] {
-                                 parse_csv(std::string("\xff\xfe"
-                                                       "a\0,\0",
-                                                       6),
-                                           "t.csv");
-                               }),
+  EXPECT_THAT(test::input_error([] {
+                parse_csv(std::string("\xff\xfe"
+                                      "a\0,\0",
+                                      6),
+                          "t.csv");
+              }),
               testing::AllOf(testing::HasSubstr("UTF-16"), testing::HasSubstr("UTF-8")));
 }
 
@@ -81,14 +80,13 @@ TEST(Csv, RowsKnowTheLineTheyBeginAt) {
 
 TEST(Csv, ShortRowsAreFilledUpAndLongOnesRefused) {
   EXPECT_THAT(row("a,b,c\n1\n"), ElementsAre("1", "", ""));
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { parse_csv("a,b\n1,2\n1,2,3\n", "t.csv"); }),
+  EXPECT_THAT(test::usage_error([] { parse_csv("a,b\n1,2\n1,2,3\n", "t.csv"); }),
               AllOf(HasSubstr("t.csv:3"), HasSubstr("3 fields"), HasSubstr("allowed: 2")));
 }
 
 TEST(Csv, AnOpenQuoteIsNamedWhereItsRowBegins) {
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [] { parse_csv("a,b\n1,2\n3,\"4\n5,6\n", "t.csv"); }),
-      AllOf(HasSubstr("t.csv:3"), HasSubstr("unclosed quote")));
+  EXPECT_THAT(test::usage_error([] { parse_csv("a,b\n1,2\n3,\"4\n5,6\n", "t.csv"); }),
+              AllOf(HasSubstr("t.csv:3"), HasSubstr("unclosed quote")));
 }
 
 TEST(Csv, ColumnsAreFoundInSmallAndCapitalLetters) {
@@ -103,10 +101,8 @@ TEST(Csv, ColumnsAreFoundInSmallAndCapitalLetters) {
 
 TEST(Csv, FilesThatAreNotThereOrTooLong) {
   const test::Folder folder;
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_csv(folder / "none.csv"); }),
-              HasSubstr("none.csv"));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_csv(folder.path()); }),
-              HasSubstr(folder.path()));
+  EXPECT_THAT(test::input_error([&] { read_csv(folder / "none.csv"); }), HasSubstr("none.csv"));
+  EXPECT_THAT(test::input_error([&] { read_csv(folder.path()); }), HasSubstr(folder.path()));
   const std::string path = folder.write("t.csv", "a\n1\n");
   EXPECT_THAT(read_csv(path).rows.at(0).fields, ElementsAre("1"));
   std::filesystem::resize_file(path, (16U << 20) + 1);

@@ -13,7 +13,9 @@
 namespace belvedere {
 namespace {
 
+using test::input_error;
 using test::message_of;
+using test::usage_error;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -102,8 +104,7 @@ TEST_F(MapFeatureFiles, SegmentsOfOnePointAreOneLine) {
 }
 
 TEST_F(MapFeatureFiles, ArchivesAreToBeUnpacked) {
-  EXPECT_THAT(message_of(ErrorKind::input,
-                         [&] { read_map_features(write_text("a.zip", "PK\x03\x04"), {}, utm_); }),
+  EXPECT_THAT(input_error([&] { read_map_features(write_text("a.zip", "PK\x03\x04"), {}, utm_); }),
               AllOf(HasSubstr("zip archive"), HasSubstr("unpack")));
 }
 
@@ -177,11 +178,10 @@ TEST_F(MapFeatureFiles, OpenStreetMapsOwnFormat) {
   EXPECT_EQ(waters.features[0].shape, MapShape::area);
   EXPECT_THAT(waters.features[0].values, ElementsAre("water"));
   EXPECT_EQ(read_map_features(file, {}, utm_).features.size(), 3U) << "layers that the file mixes";
-  EXPECT_THAT(
-      message_of(
-          ErrorKind::input,
-          [&] { read_map_features(write_text("broken.osm.pbf", "no such thing"), {}, utm_); }),
-      HasSubstr("broken.osm.pbf"));
+  EXPECT_THAT(input_error([&] {
+                read_map_features(write_text("broken.osm.pbf", "no such thing"), {}, utm_);
+              }),
+              HasSubstr("broken.osm.pbf"));
 }
 
 // The same region as XML and as PBF, converted by another program.
@@ -271,7 +271,7 @@ TEST_F(MapFeatureFiles, MetresReadAsDegreesAreRefused) {
         "m.geojson", R"({"type":"Feature","properties":{},"geometry":{"type":"LineString",)"
                      R"("coordinates":[)" +
                          positions + "]}}");
-    return message_of(ErrorKind::input, [&] { read_map_features(file, {}, normalize_crs(crs)); });
+    return input_error([&] { read_map_features(file, {}, normalize_crs(crs)); });
   };
   const std::string mercator = "[1278000,5990000],[1279000,5991000]";
   EXPECT_THAT(
@@ -314,8 +314,7 @@ TEST_F(MapFeatureFiles, WhatIsWrongIsSaid) {
   EXPECT_THAT(
       message(ErrorKind::usage, file, {.layer = {}, .where = "highway = 'x'", .columns = {}}),
       HasSubstr("invalid filter"));
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_map_features(file, {}, ""); }),
-              HasSubstr("no CRS"));
+  EXPECT_THAT(usage_error([&] { read_map_features(file, {}, ""); }), HasSubstr("no CRS"));
 }
 
 }  // namespace

@@ -66,26 +66,22 @@ TEST_F(Frame, AnExtentGrowsToWholeCells) {
 
 TEST_F(Frame, RefusesExtentsOfNothing) {
   const RasterSource source = file("a.tif");
-  EXPECT_THAT(test::message_of(ErrorKind::usage,
-                               [&] {
-                                 choose_frame({source}, "", 0.0, Extent{{2.0, 1.0, 1.0, 2.0}});
-                               }),
+  EXPECT_THAT(test::usage_error([&] {
+                choose_frame({source}, "", 0.0, Extent{{2.0, 1.0, 1.0, 2.0}});
+              }),
               HasSubstr("has no area"));
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [&] {
-                                 choose_frame({source}, "", 0.0, Extent{{1.0, 1.0, 2.0, 2.0}});
-                               }),
+  EXPECT_THAT(test::input_error([&] {
+                choose_frame({source}, "", 0.0, Extent{{1.0, 1.0, 2.0, 2.0}});
+              }),
               AllOf(HasSubstr("outside the data"), HasSubstr("E 500007…504007"),
                     HasSubstr("N 5197003…5200003")));
 }
 
 TEST_F(Frame, RefusesNoFilesMapsThatStretchAndTooManyCells) {
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { choose_frame({}, "", 0.0, {}); }),
-              HasSubstr("at least one"));
+  EXPECT_THAT(test::usage_error([] { choose_frame({}, "", 0.0, {}); }), HasSubstr("at least one"));
   const RasterSource source = file("a.tif");
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [&] { choose_frame({source}, "EPSG:3857", 0.0, {}); }),
-      AllOf(HasSubstr("distorts distances"), HasSubstr("EPSG:32632")));
+  EXPECT_THAT(test::usage_error([&] { choose_frame({source}, "EPSG:3857", 0.0, {}); }),
+              AllOf(HasSubstr("distorts distances"), HasSubstr("EPSG:32632")));
   EXPECT_THAT(test::message_of(ErrorKind::limit, [&] { choose_frame({source}, "", 0.001, {}); }),
               AllOf(HasSubstr("a.tif"), HasSubstr("cell_m")));
 }

@@ -59,10 +59,9 @@ TEST(HttpAddress, IsKnownAndHasNoPassword) {
        {"dem/a.tif", "/vsicurl/http://example.org/a.tif", "ftp://example.org/a.tif", "http:/a"})
     EXPECT_FALSE(is_address(file)) << file;
   EXPECT_NO_THROW(check_address("https://example.org/a@b.tif"));
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { check_address("http:///a.tif"); }),
-              HasSubstr("no host"));
-  const std::string secret = test::message_of(
-      ErrorKind::usage, [] { check_address("https://me:secret@example.org/a.tif"); });
+  EXPECT_THAT(test::usage_error([] { check_address("http:///a.tif"); }), HasSubstr("no host"));
+  const std::string secret =
+      test::usage_error([] { check_address("https://me:secret@example.org/a.tif"); });
   EXPECT_THAT(secret, AllOf(HasSubstr("example.org"), HasSubstr("password"),
                             ::testing::Not(HasSubstr("secret"))));
 }
@@ -71,8 +70,7 @@ TEST_F(Http, NoServerIsAskedWithoutLeave) {
   write_tiff();
   const test::HttpServer server(folder_.path());
   EXPECT_FALSE(http_allowed());
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [&] { read_raster(source_of(server.address("dem.tif"))); }),
+  EXPECT_THAT(test::input_error([&] { read_raster(source_of(server.address("dem.tif"))); }),
               HasSubstr("--allow-http"));
   {
     const HttpAccess access({});
@@ -117,8 +115,8 @@ TEST_F(Http, AServerThatFailsForGoodIsAnInputError) {
   for (const char* after : {"after=0", "after=1", "after=2"}) {
     const test::HttpServer server(folder_.path(), {"fail=1000", after});
     const HttpAccess access(impatient(0));
-    const std::string raster = test::message_of(
-        ErrorKind::input, [&] { read_raster(source_of(server.address("dem.tif"))); });
+    const std::string raster =
+        test::input_error([&] { read_raster(source_of(server.address("dem.tif"))); });
     EXPECT_THAT(raster, AllOf(HasSubstr(server.address("dem.tif")), HasSubstr("server"))) << after;
     EXPECT_EQ(
         error_of([&] { read_address(server.address("dem.tif"), [](std::string_view) {}); }).kind(),
@@ -135,16 +133,14 @@ TEST_F(Http, ServersThatStallOrGiveNoPartsAreInputErrors) {
   write_tiff();
   const test::HttpServer stalls(folder_.path(), {"stall"});
   const HttpAccess access(impatient(0));
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [&] { read_raster(source_of(stalls.address("dem.tif"))); }),
+  EXPECT_THAT(test::input_error([&] { read_raster(source_of(stalls.address("dem.tif"))); }),
               HasSubstr(stalls.address("dem.tif")));
   EXPECT_EQ(
       error_of([&] { read_address(stalls.address("dem.tif"), [](std::string_view) {}); }).kind(),
       ErrorKind::input);
   const test::HttpServer whole(folder_.path(), {"no-ranges"});
-  EXPECT_THAT(
-      test::message_of(ErrorKind::input, [&] { read_raster(source_of(whole.address("dem.tif"))); }),
-      HasSubstr("range requests"));
+  EXPECT_THAT(test::input_error([&] { read_raster(source_of(whole.address("dem.tif"))); }),
+              HasSubstr("range requests"));
 }
 
 TEST_F(Http, VrtsMayNameRastersOnServersButNotLieThere) {

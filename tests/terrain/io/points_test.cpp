@@ -14,7 +14,9 @@
 namespace belvedere {
 namespace {
 
+using test::input_error;
 using test::message_of;
+using test::usage_error;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -85,7 +87,7 @@ TEST_F(Points, OfSeveralLayersTheOneNamedTowns) {
   if (!has_ogr2ogr()) GTEST_SKIP() << "needs GDAL's program ogr2ogr";
   write_layer("two.gpkg", "-nln huts");
   write_layer("two.gpkg", "-update -nln summits");
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_points(path("two.gpkg"), utm_); }),
+  EXPECT_THAT(input_error([&] { read_points(path("two.gpkg"), utm_); }),
               AllOf(HasSubstr("huts, summits"), HasSubstr("towns")));
   write_layer("two.gpkg", "-update -nln towns -where \"name = 'Hall'\"");
   EXPECT_EQ(read_points(path("two.gpkg"), utm_).points.size(), 1U);
@@ -109,7 +111,7 @@ TEST_F(Points, ShapefilesInAnotherEncodingNeedItsName) {
   std::string table = read_text("p.dbf");
   table.at(29) = '\0';
   write_text("p.dbf", table);
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_points(file, utm_); }),
+  EXPECT_THAT(input_error([&] { read_points(file, utm_); }),
               AllOf(HasSubstr("feature 0"), HasSubstr("p.cpg"), HasSubstr("ISO-8859-1")));
 }
 
@@ -131,15 +133,14 @@ TEST_F(Points, RefuseWhatGivesNoPlace) {
   EXPECT_THAT(refused("a.geojson", R"({"type": "LineString", "coordinates": [[11, 47], [12, 48]]})",
                       ErrorKind::input),
               HasSubstr("no point layer"));
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_points(path("none.gpkg"), utm_); }),
+  EXPECT_THAT(input_error([&] { read_points(path("none.gpkg"), utm_); }),
               HasSubstr("file not found"));
   EXPECT_THAT(refused("a.geojson", R"({"type": "Point", "coordinates": [1273000, 6020000]})",
                       ErrorKind::input),
               AllOf(HasSubstr("a.geojson, feature 0: these are metres, not degrees"),
                     HasSubstr("EPSG:3857")));
   const std::string degrees = write_text("b.csv", "lon,lat\n11,47\n");
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_points(degrees, ""); }),
-              HasSubstr("terrain has no CRS"));
+  EXPECT_THAT(usage_error([&] { read_points(degrees, ""); }), HasSubstr("terrain has no CRS"));
 }
 
 // A file must not refer to others: a virtual layer under a harmless name is rejected.
@@ -152,7 +153,7 @@ TEST_F(Points, OnlyTheFormatThatTheEndingNames) {
       "y=\"lat\"/></OGRVRTLayer></OGRVRTDataSource>";
   for (const char* name : {"a.geojson", "a.gpkg", "a.shp", "a.fgb"}) {
     const std::string file = write_text(name, virtual_layer);
-    message_of(ErrorKind::input, [&] { read_points(file, utm_); });
+    input_error([&] { read_points(file, utm_); });
   }
 }
 
@@ -169,8 +170,7 @@ TEST_F(Points, ASourceStatesCrsAndEncoding) {
                         transform_point("EPSG:31468", utm_, {4445000, 5265000})),
             1e-3);
   source.encoding = "latin-nine";
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_points(source, utm_); }),
-              HasSubstr("latin-nine"));
+  EXPECT_THAT(usage_error([&] { read_points(source, utm_); }), HasSubstr("latin-nine"));
   if (!has_ogr2ogr()) GTEST_SKIP() << "needs GDAL's program ogr2ogr";
   write_text("umlaut.geojson",
              R"({"type": "FeatureCollection", "features": [{"type": "Feature",
@@ -186,10 +186,9 @@ TEST_F(Points, ASourceStatesCrsAndEncoding) {
   std::filesystem::remove(path("p.cpg"));
   std::filesystem::remove(path("p.prj"));
   VectorSource bare = path("p.shp");
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_points(bare, utm_); }), HasSubstr("`crs`"));
+  EXPECT_THAT(input_error([&] { read_points(bare, utm_); }), HasSubstr("`crs`"));
   bare.crs = "EPSG:4326";
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_points(bare, utm_); }),
-              HasSubstr("`encoding`"));
+  EXPECT_THAT(input_error([&] { read_points(bare, utm_); }), HasSubstr("`encoding`"));
   bare.encoding = "ISO-8859-1";
   const PointTable read = read_points(bare, utm_);
   EXPECT_EQ(read.points.at(0).values.at(0), "Wörner");
@@ -197,8 +196,7 @@ TEST_F(Points, ASourceStatesCrsAndEncoding) {
             1e-3);
   VectorSource utf8 = path("umlaut.geojson");
   utf8.encoding = "ISO-8859-1";
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_points(utf8, utm_); }),
-              HasSubstr("always UTF-8"));
+  EXPECT_THAT(usage_error([&] { read_points(utf8, utm_); }), HasSubstr("always UTF-8"));
 }
 
 class Lines : public RasterFiles {
@@ -236,19 +234,16 @@ TEST_F(Lines, OfGeoJson) {
 }
 
 TEST_F(Lines, WrongFilesAreSaid) {
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_lines(path("tour.kml"), utm_); }),
-              HasSubstr(".gpx"));
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_lines(path("none.gpx"), utm_); }),
+  EXPECT_THAT(usage_error([&] { read_lines(path("tour.kml"), utm_); }), HasSubstr(".gpx"));
+  EXPECT_THAT(input_error([&] { read_lines(path("none.gpx"), utm_); }),
               HasSubstr("file not found"));
-  EXPECT_THAT(
-      message_of(ErrorKind::input, [&] { read_lines(write_text("bad.gpx", "<gpx"), utm_); }),
-      HasSubstr("bad.gpx"));
+  EXPECT_THAT(input_error([&] { read_lines(write_text("bad.gpx", "<gpx"), utm_); }),
+              HasSubstr("bad.gpx"));
   const std::string point =
       R"({"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [11, 47]}})";
-  EXPECT_THAT(
-      message_of(ErrorKind::input, [&] { read_lines(write_text("point.geojson", point), utm_); }),
-      HasSubstr("no line"));
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_lines(write_text("a.geojson", point), ""); }),
+  EXPECT_THAT(input_error([&] { read_lines(write_text("point.geojson", point), utm_); }),
+              HasSubstr("no line"));
+  EXPECT_THAT(usage_error([&] { read_lines(write_text("a.geojson", point), ""); }),
               HasSubstr("no CRS"));
 }
 

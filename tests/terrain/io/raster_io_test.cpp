@@ -326,7 +326,7 @@ TEST_F(RasterIo, TilesMeetAtTheDateLine) {
 
 TEST_F(RasterIo, FilesNameWhatHelpsTheirUsers) {
   const auto message = [&](const std::string& file) {
-    return test::message_of(ErrorKind::input, [&] { read_raster_info(source_of(file)); });
+    return test::input_error([&] { read_raster_info(source_of(file)); });
   };
   EXPECT_THAT(message(write_text("a.tif", "PK\x03\x04")),
               testing::AllOf(HasSubstr("zip archive"), HasSubstr("unpack it")));

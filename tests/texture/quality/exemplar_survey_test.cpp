@@ -84,10 +84,8 @@ TEST(ExemplarSurvey, TellsHowManyPixelsFindTexelsOfTheirAltitude) {
   EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 3), 132.0 / 200.0);
   EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 40), 1.0);
   EXPECT_EQ(covered_share(exemplars, target, 5, "altitude", 0), 1.0);
-  EXPECT_EQ(
-      test::message_of(ErrorKind::usage, [&] { covered_share(exemplars, target, 4, "tone", 0); })
-          .empty(),
-      false);
+  EXPECT_EQ(test::usage_error([&] { covered_share(exemplars, target, 4, "tone", 0); }).empty(),
+            false);
 }
 
 // Bars along a row, 12 pixels long and 1 high: their run is measured.

@@ -63,7 +63,7 @@ GuideStack stack_of(int width, int height) {
 }
 
 std::string refused_guides(const GuideStack& stack) {
-  return test::message_of(ErrorKind::usage, [&] { check_guide_stack(stack, "the target"); });
+  return test::usage_error([&] { check_guide_stack(stack, "the target"); });
 }
 
 TEST(GuideStack, FindsGuidesByTheirNames) {

@@ -135,12 +135,10 @@ TEST(MatchCost, GuidesAndUses) {
   EXPECT_EQ(uses[0](3, 4), 3U);
   EXPECT_EQ(uses[0](0, 0), 0U);
 
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [&] { guide_error(matches, exemplars, target, "tone"); }),
-      HasSubstr("tone"));
+  EXPECT_THAT(test::usage_error([&] { guide_error(matches, exemplars, target, "tone"); }),
+              HasSubstr("tone"));
   matches(0, 0).x = 8;
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { texel_uses(matches, exemplars); }),
-              HasSubstr("outside"));
+  EXPECT_THAT(test::usage_error([&] { texel_uses(matches, exemplars); }), HasSubstr("outside"));
 }
 
 }  // namespace

@@ -11,14 +11,13 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string refusal(const DeformOptions& options) {
-  return test::message_of(ErrorKind::usage, [&] { load(options); });
+  return test::usage_error([&] { load(options); });
 }
 
 TEST(DeformOptions, PairsAreTwoNumbersInAnyLocale) {
   EXPECT_EQ(parse_pair("692000.5,-5302000", "--viewer"), glm::dvec2(692000.5, -5302000.0));
   for (const char* text : {"", "1", "1,2,3", "1,x", "1;2", "1, 2"})
-    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { parse_pair(text, "--viewer"); }),
-                HasSubstr("--viewer"))
+    EXPECT_THAT(test::usage_error([&] { parse_pair(text, "--viewer"); }), HasSubstr("--viewer"))
         << text;
 }
 

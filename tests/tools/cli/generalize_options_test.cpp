@@ -17,7 +17,7 @@ GeneralizeOptions read_generalize_options(const std::string& line) {
   return test::read_options<GeneralizeOptions>(add_generalize_options, line);
 }
 std::string refusal(const std::string& line) {
-  return test::message_of(ErrorKind::usage, [&] { resolve_bands(read_generalize_options(line)); });
+  return test::usage_error([&] { resolve_bands(read_generalize_options(line)); });
 }
 
 TEST(GeneralizeOptions, WeightsAreListsWithCommas) {

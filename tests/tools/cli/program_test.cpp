@@ -17,7 +17,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 std::string refused_run(const std::vector<std::string>& arguments) {
-  return test::message_of(ErrorKind::usage, [&] { run_program(arguments); });
+  return test::usage_error([&] { run_program(arguments); });
 }
 
 TEST(ProgramRun, AsksForTheCommandAndNamesTheNearest) {

@@ -123,8 +123,7 @@ TEST(ShellCompletion, IsReadByItsShell) {
 }
 
 TEST(ShellCompletion, RefusesOtherShells) {
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { shell_completion({}, "csh"); }),
-              HasSubstr("bash, fish, zsh"));
+  EXPECT_THAT(test::usage_error([] { shell_completion({}, "csh"); }), HasSubstr("bash, fish, zsh"));
 }
 
 }  // namespace

@@ -14,8 +14,7 @@ TEST(SynthesisFiles, LabelsAreNumbersUpTo254) {
   EXPECT_EQ(to_label("--fallback", 0), 0);
   EXPECT_EQ(to_label("--fallback", 254), 254);
   for (const int number : {-1, 255, 1000})
-    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { to_label("--fallback", number); }),
-                HasSubstr("--fallback"))
+    EXPECT_THAT(test::usage_error([&] { to_label("--fallback", number); }), HasSubstr("--fallback"))
         << number;
 }
 
@@ -44,16 +43,15 @@ TEST(SynthesisFiles, MatchesOutsideOfTheirPictureAreRefused) {
   const test::Folder folder;
   const MatchField matches(2, 2, {0, 9, 0});
   write_matches(folder / "m.exr", matches, {{"a.png", 9, 5}}, {});
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_matches(folder / "m.exr"); }),
-              HasSubstr("9 × 5"));
+  EXPECT_THAT(test::input_error([&] { read_matches(folder / "m.exr"); }), HasSubstr("9 × 5"));
   write_matches(folder / "n.exr", MatchField(2, 2, {3, 0, 0}), {{"a.png", 9, 5}}, {});
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_matches(folder / "n.exr"); }),
+  EXPECT_THAT(test::input_error([&] { read_matches(folder / "n.exr"); }),
               HasSubstr("pictures 0 … 0"));
 }
 
 TEST(SynthesisFiles, PairingIsChecked) {
   const auto refusal = [](const SynthesisFiles& files) {
-    return test::message_of(ErrorKind::usage, [&] { read_synthesis(files); });
+    return test::usage_error([&] { read_synthesis(files); });
   };
   EXPECT_THAT(refusal({}), HasSubstr("--picture is missing"));
   SynthesisFiles files;

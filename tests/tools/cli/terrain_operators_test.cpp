@@ -74,8 +74,7 @@ TEST(ElevationOptions, SayWhatASceneSaysOfItsSources) {
   EXPECT_EQ(source.encoding, "mapbox");
   EXPECT_EQ(source.variable, "height");
   EXPECT_EQ(read("").encoding, "");
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read("--encoding png"); }),
-              testing::HasSubstr("terrarium"));
+  EXPECT_THAT(test::usage_error([&] { read("--encoding png"); }), testing::HasSubstr("terrarium"));
 }
 
 }  // namespace

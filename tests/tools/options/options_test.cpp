@@ -45,7 +45,7 @@ T value_of(
 template <class T>
 std::string refusal_of(
     const std::string& line, Say say = [](Option) {}) {
-  return test::message_of(ErrorKind::usage, [&] { read_one<T>(line, say); });
+  return test::usage_error([&] { read_one<T>(line, say); });
 }
 
 TEST(OptionValues, AreReadAsTheirType) {
@@ -165,8 +165,7 @@ void add_several(CommandOptions& command, Several& several) {
   command.add_flag("--quiet,-q", several.quiet, "No notes").excludes({mask});
 }
 std::string several_refused(const std::string& line) {
-  return test::message_of(ErrorKind::usage,
-                          [&] { test::read_options<Several>(add_several, line); });
+  return test::usage_error([&] { test::read_options<Several>(add_several, line); });
 }
 
 TEST(OptionsTogether, AreRequiredNeededAndExcluded) {
@@ -214,7 +213,7 @@ class Tree : public ::testing::Test {
     paint_.footer("Paints.");
   }
   std::string refusal(const std::vector<std::string>& words) {
-    return test::message_of(ErrorKind::usage, [&] { line_.read(words); });
+    return test::usage_error([&] { line_.read(words); });
   }
 
   CommandLine line_{"program", "What it is for", "program 7"};
@@ -299,7 +298,7 @@ TEST(RunOptions, AreThreadsQuietAndJson) {
   EXPECT_EQ(all.threads, 3);
   EXPECT_TRUE(all.quiet && all.json);
   EXPECT_TRUE(read_run_options("--quiet").quiet);
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { read_run_options("--threads -1"); }),
+  EXPECT_THAT(test::usage_error([] { read_run_options("--threads -1"); }),
               testing::HasSubstr("--threads"));
 }
 

@@ -110,16 +110,14 @@ TEST_F(WebPage, FoldersThatDoNotFitAreRefused) {
   make_render("summer", {.2F, .5F, .2F});
   write_png8(folder_.write("small/x", "") + ".png", Grid<glm::vec3>(10, 10), {});
   std::filesystem::rename(folder_ / "small/x.png", folder_ / "small/panorama.png");
-  EXPECT_THAT(test::message_of(ErrorKind::usage,
-                               [&] {
-                                 make_page({{folder_ / "summer", "a"}, {folder_ / "small", "b"}});
-                               }),
+  EXPECT_THAT(test::usage_error([&] {
+                make_page({{folder_ / "summer", "a"}, {folder_ / "small", "b"}});
+              }),
               HasSubstr("1200 × 600"));
   std::filesystem::create_directories(folder_ / "empty");
-  EXPECT_THAT(test::message_of(ErrorKind::input,
-                               [&] {
-                                 make_page({{folder_ / "empty", "a"}});
-                               }),
+  EXPECT_THAT(test::input_error([&] {
+                make_page({{folder_ / "empty", "a"}});
+              }),
               HasSubstr("belvedere render"));
 }
 
@@ -341,9 +339,8 @@ TEST(ReadOut, WithoutASystemThereAreNoPlaces) {
   GuidanceBuffers bare;
   bare.altitude_m = guidance().altitude_m;
   write_guidance(folder / "bare.exr", bare, {});
-  EXPECT_THAT(
-      test::message_of(ErrorKind::input, [&] { sample_read_out(folder / "bare.exr", 800); }),
-      HasSubstr("no distances"));
+  EXPECT_THAT(test::input_error([&] { sample_read_out(folder / "bare.exr", 800); }),
+              HasSubstr("no distances"));
 }
 
 namespace fs = std::filesystem;

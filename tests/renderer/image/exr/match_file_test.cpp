@@ -48,9 +48,8 @@ TEST(MatchFile, HoldsEveryMatchAndThePictures) {
   ASSERT_EQ(pictures.size(), 2U);
   EXPECT_EQ(pictures[0].name, "a painting.jpg");
   EXPECT_EQ(pictures[1].width, 31000);
-  EXPECT_THAT(
-      test::message_of(ErrorKind::input, [] { parse_matched_pictures("m.exr", "0 5 x\n"); }),
-      testing::HasSubstr("m.exr"));
+  EXPECT_THAT(test::input_error([] { parse_matched_pictures("m.exr", "0 5 x\n"); }),
+              testing::HasSubstr("m.exr"));
 }
 
 }  // namespace

@@ -70,14 +70,14 @@ TEST(DeviceColor, ProfilesAreTheSameBytesAndKnowTheirNames) {
     EXPECT_TRUE(is_rgb_profile(colour_space_profile(space)));
   }
   EXPECT_EQ(profile_name(colour_space_profile("display-p3")), "Display P3");
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { colour_space_profile("prophoto"); }),
+  EXPECT_THAT(test::usage_error([] { colour_space_profile("prophoto"); }),
               HasSubstr("srgb, display-p3, adobe-rgb"));
 }
 
 TEST(DeviceColor, IntentsHaveNames) {
   for (const RenderingIntentName& one : rendering_intents())
     EXPECT_EQ(rendering_intent(std::string(one.name)), one.intent);
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { rendering_intent("nice"); }),
+  EXPECT_THAT(test::usage_error([] { rendering_intent("nice"); }),
               HasSubstr("perceptual, relative, saturation, absolute"));
 }
 

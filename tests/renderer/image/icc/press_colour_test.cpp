@@ -171,8 +171,7 @@ TEST(PressColour, InksAreThoseOfTheConversionInAnyRowsAndThreads) {
   const ImageInfo info = read_image_info(folder / "a.tif");
   EXPECT_EQ(info.parts.at(0).channels.size(), 4U);
   EXPECT_EQ(info.icc_profile, press);
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_picture(folder / "a.tif"); }),
-              HasSubstr("CMYK"));
+  EXPECT_THAT(test::input_error([&] { read_picture(folder / "a.tif"); }), HasSubstr("CMYK"));
 }
 
 TEST(PressColour, TheProfilesOwnLimitHoldsItsInks) {
@@ -218,7 +217,7 @@ TEST(PressColour, WhatIsNoPressProfileIsNamed) {
   // Letters beyond ASCII: no colours of any profile.
   folder.write("colours.icc", test::changed_header(press, 16, "\xd2MYK"));
   const auto refused = [&](const char* file) {
-    return test::message_of(ErrorKind::input, [&] { read_press_profile(folder / file); });
+    return test::input_error([&] { read_press_profile(folder / file); });
   };
   EXPECT_THAT(refused("text.icc"), HasSubstr("is not an ICC profile"));
   EXPECT_THAT(refused("link.icc"), HasSubstr("device link"));
@@ -227,11 +226,11 @@ TEST(PressColour, WhatIsNoPressProfileIsNamed) {
   EXPECT_THAT(refused("rgb.icc"), HasSubstr("colours in RGB"));
   EXPECT_THAT(refused("colours.icc"), HasSubstr("colours in ?MYK"));
   EXPECT_THAT(refused("absent.icc"), HasSubstr("absent.icc"));
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_device_profile(folder / "link.icc"); }),
+  EXPECT_THAT(test::input_error([&] { read_device_profile(folder / "link.icc"); }),
               HasSubstr("device link"));
   EXPECT_EQ(read_device_profile(folder / "rgb.icc"), rgb);
   EXPECT_EQ(read_device_profile(test::press_file), press);
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { PressConversion(press, {}, press); }),
+  EXPECT_THAT(test::input_error([&] { PressConversion(press, {}, press); }),
               HasSubstr("a picture in RGB"));
 }
 

@@ -156,8 +156,7 @@ TEST(LayerFile, SameBytesAndFaults) {
     EXPECT_EQ(test::read_bytes(folder / "a"), test::read_bytes(folder / "b")) << format.title;
     test::message_of(ErrorKind::output, [&] { format.write("/dev/full/a", s.sheet, progress); });
   }
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { layer_format("xcf"); }),
-              HasSubstr("ora, psd, exr"));
+  EXPECT_THAT(test::usage_error([] { layer_format("xcf"); }), HasSubstr("ora, psd, exr"));
 }
 
 constexpr int width = 70;

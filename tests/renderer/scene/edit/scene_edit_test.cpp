@@ -23,7 +23,7 @@ namespace belvedere {
 namespace {
 
 namespace fs = std::filesystem;
-using test::message_of;
+using test::usage_error;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -351,7 +351,7 @@ TEST(SceneEdit, AlternativesOfAKeyAreRemoved) {
 
 TEST(SceneEdit, RefusesWhatItCannotWrite) {
   const auto refused = [](const std::string& text, const SceneEdit& edit) {
-    return message_of(ErrorKind::usage, [&] { edited(text, {edit}); });
+    return usage_error([&] { edited(text, {edit}); });
   };
   EXPECT_THAT(refused("seed = = 1\n", set("seed", "2")), StartsWith("s.toml:1:8: "));
   EXPECT_THAT(refused("seed = 1\n", set("seed", "red")),

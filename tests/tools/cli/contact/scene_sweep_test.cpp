@@ -29,7 +29,7 @@ TEST(SceneSweep, CommasSeparateValuesOutsideOfBracketsAndQuotes) {
 
 TEST(SceneSweep, WhatIsNoSweepIsRefused) {
   const auto refusal = [](const std::vector<std::string>& settings) {
-    return test::message_of(ErrorKind::usage, [&] { split_sweep(settings); });
+    return test::usage_error([&] { split_sweep(settings); });
   };
   EXPECT_THAT(refusal({}), HasSubstr("several values"));
   EXPECT_THAT(refusal({"a=1", "b=[1,2]"}), HasSubstr("several values"));

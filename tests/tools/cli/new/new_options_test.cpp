@@ -18,18 +18,15 @@ TEST(ViewOptions, DirectionsByNameLettersAndDegrees) {
   EXPECT_EQ(read_direction("225.5"), 225.5);
   EXPECT_EQ(read_direction("-90"), 270.0);
   for (const char* wrong : {"up", "", "north-south", "400", "1e999", "12 km"})
-    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read_direction(wrong); }),
-                HasSubstr("--towards"))
-        << wrong;
+    EXPECT_THAT(test::usage_error([&] { read_direction(wrong); }), HasSubstr("--towards")) << wrong;
 }
 
 TEST(ViewOptions, PlacesAreLongitudeFirst) {
   EXPECT_EQ(read_lonlat("--from", "11.4,47.27"), glm::dvec2(11.4, 47.27));
   EXPECT_EQ(read_lonlat("--from", " -112.9 , 37.2 "), glm::dvec2(-112.9, 37.2));
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { read_lonlat("--from", "47.27"); }),
+  EXPECT_THAT(test::usage_error([] { read_lonlat("--from", "47.27"); }),
               AllOf(HasSubstr("--from"), HasSubstr("longitude")));
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { read_lonlat("--from", "11,99"); }),
-              HasSubstr("\"11,99\""));
+  EXPECT_THAT(test::usage_error([] { read_lonlat("--from", "11,99"); }), HasSubstr("\"11,99\""));
 }
 
 TEST(ViewOptions, PlacesWithNames) {
@@ -37,7 +34,7 @@ TEST(ViewOptions, PlacesWithNames) {
   EXPECT_EQ(position.name, "Hall in Tirol");
   EXPECT_EQ(position.lonlat, glm::dvec2(11.51, 47.28));
   EXPECT_EQ(read_named_place("11.51,47.28").name, "");
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { read_named_place("Innsbruck"); }),
+  EXPECT_THAT(test::usage_error([] { read_named_place("Innsbruck"); }),
               AllOf(HasSubstr("--include"), HasSubstr("Innsbruck|")));
 }
 
@@ -55,9 +52,7 @@ TEST(ViewOptions, Formats) {
   EXPECT_FALSE(read_format("5:1").picture.full_turn);
   for (const char* wrong :
        {"", "A9", "A", "wide", "2:0", "0:1", "100:1", "cylinder 2:1", "A2 lying down", "10x10"})
-    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read_format(wrong); }),
-                HasSubstr("--format"))
-        << wrong;
+    EXPECT_THAT(test::usage_error([&] { read_format(wrong); }), HasSubstr("--format")) << wrong;
 }
 
 }  // namespace
