@@ -17,12 +17,11 @@
 namespace belvedere {
 namespace {
 
+using test::input_error;
+using test::usage_error;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-using test::input_error;
-using test::usage_error;
 
 double seconds(const std::function<void()>& f) {
   const auto start = std::chrono::steady_clock::now();

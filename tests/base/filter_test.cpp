@@ -42,10 +42,9 @@ Grid<float> reference_blur(const Grid<float>& values, double sigma_x, double sig
   const int ry = static_cast<int>(ky.size() / 2);
   Grid<double> rows(values.width(), values.height());
   Grid<float> out(values.width(), values.height());
-  for (const auto [x, y] : test::cells(values)) {
+  for (const auto [x, y] : test::cells(values))
     for (int k = -rx; k <= rx; ++k)
       rows(x, y) += kx[static_cast<std::size_t>(k + rx)] * values.clamped(x + k, y);
-  }
   for (const auto [x, y] : test::cells(values)) {
     double sum = 0.0;
     for (int k = -ry; k <= ry; ++k)
@@ -124,12 +123,11 @@ TEST(WindowExtremes, EqualBruteForce) {
       for (const auto [x, y] : test::cells(width, height)) {
         float smallest = values(x, y);
         float largest = values(x, y);
-        for (int v = y - reach; v <= y + reach; ++v) {
+        for (int v = y - reach; v <= y + reach; ++v)
           for (int u = x - reach; u <= x + reach; ++u) {
             smallest = std::min(smallest, values.clamped(u, v));
             largest = std::max(largest, values.clamped(u, v));
           }
-        }
         ASSERT_EQ(low(x, y), smallest) << x << ' ' << y << " radius " << radius;
         ASSERT_EQ(high(x, y), largest) << x << ' ' << y << " radius " << radius;
       }
@@ -138,8 +136,8 @@ TEST(WindowExtremes, EqualBruteForce) {
 }
 
 TEST(NearestMarked, EqualsBruteForceTiesIncluded) {
-  for (const auto& [width, height] : {std::pair{31, 23}, std::pair{40, 9}, std::pair{7, 40}}) {
-    for (const double share : {0.002, 0.02, 0.2, 0.7}) {
+  for (const auto& [width, height] : {std::pair{31, 23}, std::pair{40, 9}, std::pair{7, 40}})
+    for (const double share : {0.002, 0.02, 0.2, 0.7})
       for (std::uint64_t seed = 0; seed < 8; ++seed) {
         Grid<std::uint8_t> mask(width, height);
         for (const auto [x, y] : test::cells(width, height))
@@ -160,8 +158,6 @@ TEST(NearestMarked, EqualsBruteForceTiesIncluded) {
           ASSERT_EQ(nearest(x, y), best) << x << ' ' << y << " seed " << seed << " share " << share;
         }
       }
-    }
-  }
 }
 
 TEST(NearestMarked, EmptyMaskGivesMinusOne) {

@@ -96,5 +96,4 @@ TEST(GridPart, AnEmptyPartIsNothing) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -47,7 +47,7 @@ TEST_F(InstructionSet, NarrowerOnesAreThereAndWiderOnesAreMissed) {
     setenv("BELVEDERE_INSTRUCTION_SET", names[widest].c_str(), 1);
     EXPECT_EQ(machine_instruction_set(), names[widest]);
     EXPECT_EQ(choose_instruction_set("any"), names[widest]);
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t i = 0; i < names.size(); ++i)
       if (i <= widest) {
         EXPECT_EQ(choose_instruction_set(names[i]), names[i]);
       } else {
@@ -55,7 +55,6 @@ TEST_F(InstructionSet, NarrowerOnesAreThereAndWiderOnesAreMissed) {
                     AllOf(HasSubstr(instruction_set_title(names[i])),
                           HasSubstr('"' + names[widest] + '"')));
       }
-    }
   }
   // The environment variable cannot enable what the machine lacks.
   setenv("BELVEDERE_INSTRUCTION_SET", "avx512", 1);

@@ -72,10 +72,9 @@ TEST(DeterministicSum, SameBitsForAnyThreadCount) {
 
 TEST(DeterministicSum, IsTheSum) {
   EXPECT_EQ(deterministic_sum(0, [](std::size_t) { return 1.0; }), 0.0);
-  for (const std::size_t n : {1UL, 8191UL, 8192UL, 8193UL, 50000UL}) {
+  for (const std::size_t n : {1UL, 8191UL, 8192UL, 8193UL, 50000UL})
     EXPECT_EQ(deterministic_sum(n, [](std::size_t i) { return static_cast<double>(i); }),
               0.5 * static_cast<double>(n) * static_cast<double>(n - 1));
-  }
 }
 
 // A task that throws cancels its own loop, never a loop inside another task, whose caller expects
@@ -126,5 +125,4 @@ TEST(FunctionRef, CopiesReferToTheSameFunction) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

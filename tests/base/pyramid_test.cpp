@@ -30,9 +30,8 @@ Grid<float> rough_terrain(int width, int height) {
 }
 
 Grid<float> weighted_sum(LaplacianPyramid pyramid, const std::vector<float>& weights) {
-  for (std::size_t i = 0; i < pyramid.bands.size(); ++i) {
+  for (std::size_t i = 0; i < pyramid.bands.size(); ++i)
     for (float& v : pyramid.bands[i]) v *= weights[i];
-  }
   return test::reconstruct(pyramid);
 }
 
@@ -53,12 +52,11 @@ TEST(Pyramid, ReconstructsTheInput) {
   for (const auto& [width, height] : {std::pair{512, 512}, std::pair{513, 379}, std::pair{37, 61},
                                       std::pair{2, 9}, std::pair{1, 1}}) {
     const Grid<float> values = rough_terrain(width, height);
-    for (const int bands : {1, 5, 30}) {
+    for (const int bands : {1, 5, 30})
       EXPECT_LE(
           largest_difference(test::reconstruct(make_laplacian_pyramid(values, bands)), values),
           1e-3)
           << width << " x " << height;
-    }
   }
 }
 
@@ -175,9 +173,8 @@ TEST(Pyramid, ReduceEqualsTheDefinition) {
   };
   for (const auto [x, y] : test::cells(half)) {
     double sum = 0.0;
-    for (int j = -2; j <= 2; ++j) {
+    for (int j = -2; j <= 2; ++j)
       for (int i = -2; i <= 2; ++i) sum += kernel[i + 2] * kernel[j + 2] * at(2 * x + i, 2 * y + j);
-    }
     ASSERT_NEAR(half(x, y), sum, 2e-3) << x << ' ' << y;
   }
 }

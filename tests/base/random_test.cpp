@@ -25,13 +25,10 @@ TEST(Random, IsAFixedFunctionOfItsKey) {
 
 TEST(Random, EachPartOfTheKeyCounts) {
   std::set<std::uint64_t> seen;
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    for (std::int64_t x = -6; x < 6; ++x) {
-      for (std::int64_t y = -6; y < 6; ++y) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed)
+    for (std::int64_t x = -6; x < 6; ++x)
+      for (std::int64_t y = -6; y < 6; ++y)
         for (std::uint64_t draw = 0; draw < 6; ++draw) seen.insert(random_bits(seed, x, y, draw));
-      }
-    }
-  }
   EXPECT_EQ(seen.size(), 6U * 12 * 12 * 6);
 }
 
@@ -259,14 +256,12 @@ TEST(GaussianNoise, HangsOnNothingThatWasAskedBefore) {
 TEST(GaussianNoise, SeedsAreIndependent) {
   double product = 0.0;
   int count = 0;
-  for (int y = 0; y < 60; ++y) {
+  for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 60; ++x, ++count)
       product +=
           gaussian_noise(1, 9.0 * x, 9.0 * y, 2.0) * gaussian_noise(2, 9.0 * x, 9.0 * y, 2.0);
-  }
   EXPECT_NEAR(product / count, 0.0, 4.0 / 60.0);
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -296,5 +296,4 @@ TEST(CacheKeyText, OneCellMakesAnotherGrid) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -69,5 +69,4 @@ TEST(LabelPatches, AreConnectedByCornersWhereAsked) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -168,5 +168,4 @@ TEST(LargePages, LeaveSmallAndEmptyBlocksAlone) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

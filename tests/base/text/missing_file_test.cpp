@@ -83,5 +83,4 @@ TEST(ArchiveKind, IsKnownByItsFirstBytes) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -157,5 +157,4 @@ TEST(OneLine, LineFeedsAndBackslashesComeBack) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -193,5 +193,4 @@ TEST(SlopeFrame, TiltsByGradientsOnTheSheet) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -88,9 +88,8 @@ TEST(CloseRelief, OfAPartIsThatOfTheWhole) {
   const PixelRect tongues{310, below_snow + 4, 590, below_snow + 8};
   const Grid<Class> shown = test::cut(whole.land_cover, tongues);
   ASSERT_GT(std::count(shown.begin(), shown.end(), Class::snow), 50);
-  for (const PixelRect kept : {PixelRect{468, 200, 492, 224}, PixelRect{0, 360, 3, 420}, tongues}) {
+  for (const PixelRect kept : {PixelRect{468, 200, 492, 224}, PixelRect{0, 360, 3, 420}, tongues})
     expect_part_of(whole, kept, g, test::bare_relief(g, kept));
-  }
 }
 
 TEST(CloseRelief, OfAPartBesideAGlacierIsThatOfTheWhole) {

@@ -246,5 +246,4 @@ TEST(Proposals, NoViewThatFitsIsSaid) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

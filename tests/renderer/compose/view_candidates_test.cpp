@@ -238,5 +238,4 @@ TEST_F(Reach, OfAPlainEndsWithTheData) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

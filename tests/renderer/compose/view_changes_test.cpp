@@ -164,5 +164,4 @@ TEST(GroundChanges, SummitsAreRaisedByThemselves) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -152,5 +152,4 @@ TEST(ViewDefaults, ValuesAreWrittenInFourFigures) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

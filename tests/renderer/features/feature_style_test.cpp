@@ -185,5 +185,4 @@ TEST_F(Sources, AWordThatTheStyleDoesNotKnowIsSaidWithThoseItKnows) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -244,13 +244,12 @@ TEST(PaintFeatures, TellsHowFarRopesHang) {
       painted(ground, draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 0.0}})}));
   const double distance_m = glm::length(glm::dvec3(0.0, -3000.0, 1500.0));
   std::size_t ropes = 0;
-  for (std::size_t i = 0; i < picture.size(); ++i) {
+  for (std::size_t i = 0; i < picture.size(); ++i)
     if (picture[i] != bare) {
       ASSERT_NEAR(static_cast<double>(overhead[i]), distance_m, 0.05 * distance_m)
           << "wherever its paint is";
       ++ropes;
     }
-  }
   EXPECT_GT(ropes, 100U);
   EXPECT_TRUE(std::isinf(overhead(200, 5)));
   const glm::dvec2 way = ground.pixel({0.0, 400.0, 0.0});

@@ -74,5 +74,4 @@ TEST_F(FileBytes, TheSystemsErrorsComeThrough) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

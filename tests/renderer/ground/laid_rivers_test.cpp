@@ -315,5 +315,4 @@ TEST(RiverShores, StayNarrowOnTheSheet) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -82,10 +82,9 @@ TEST_F(Color, AcesSpacesAreThosePublished) {
   for (const char* space : {"aces", "acescg"}) {
     parameters.working = space;
     const Grid<glm::vec3> grey = to_display(grey_ramp(11, 0.0, 1.0), parameters);
-    for (int x = 0; x < 11; ++x) {
+    for (int x = 0; x < 11; ++x)
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(grey(x, 0)[c], x / 10.0, 2e-5) << space << ": the grey axis stays neutral";
-    }
   }
 }
 

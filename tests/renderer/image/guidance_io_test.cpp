@@ -84,7 +84,7 @@ TEST(GuidanceIo, EveryChannelComesBack) {
   const GuidanceBuffers g = make_guidance(100, 150);
   write_guidance(folder / "g.exr", g, {{"camera", "perspective"}});
   const GuidanceBuffers r = read_guidance(folder / "g.exr");
-  for (const GuidanceChannel& channel : guidance_channels()) {
+  for (const GuidanceChannel& channel : guidance_channels())
     std::visit(
         [&](auto member) {
           ASSERT_TRUE((r.*member).same_size(g.*member)) << channel.names[0];
@@ -93,7 +93,6 @@ TEST(GuidanceIo, EveryChannelComesBack) {
                 << channel.names[0] << " " << i;
         },
         channel.member);
-  }
   for (const auto [x, y] : test::cells({2, 0, 100, 150})) {
     ASSERT_NEAR(glm::length(r.normal(x, y)), 1.0, 1e-6) << "made unit again";
     ASSERT_NEAR(glm::length(r.fall_line(x, y)), 1.0, 1e-6);
@@ -106,9 +105,8 @@ TEST(GuidanceIo, HeaderNamesChannelsTypesAndClasses) {
   write_guidance(folder / "g.exr", make_guidance(10, 10), {{"camera", "perspective"}});
   const ImageInfo info = read_image_info(folder / "g.exr");
   std::map<std::string, ChannelType> found;
-  for (const PartSpec& part : info.parts) {
+  for (const PartSpec& part : info.parts)
     for (const ChannelSpec& c : part.channels) found[part.name + "/" + c.name] = c.type;
-  }
   std::size_t expected = 0;
   for (const GuidanceChannel& channel : guidance_channels()) expected += channel.components();
   EXPECT_EQ(found.size(), expected);

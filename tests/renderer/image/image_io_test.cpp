@@ -53,13 +53,11 @@ TEST(Tiff, RoundsToTheNearestStepAndReadsBack) {
   ASSERT_TRUE(again.same_size(picture));
   EXPECT_EQ(again(0, 0), glm::vec3(0.0f, 1.0f, 0.0f));
   EXPECT_EQ(again(1, 0), glm::vec3(0.0f, 1.0f / 65535.0f, 1.0f));
-  for (std::size_t i = 2; i < picture.size(); ++i) {
-    for (int c = 0; c < 3; ++c) {
+  for (std::size_t i = 2; i < picture.size(); ++i)
+    for (int c = 0; c < 3; ++c)
       ASSERT_EQ(std::lround(again[i][c] * 65535.0),
                 std::lround(static_cast<double>(picture[i][c]) * 65535.0))
           << i;
-    }
-  }
 }
 
 TEST(Tiff, CarriesResolutionProfileAndNotes) {
@@ -118,11 +116,10 @@ TEST(Png, RoundsToTheNearestStepAndReadsBack) {
   write_png8(folder / "a.png", picture, {});
   const Grid<glm::vec3> again = read_picture(folder / "a.png");
   EXPECT_EQ(again(0, 0), glm::vec3(0.0f, 1.0f, 1.0f / 255.0f));
-  for (std::size_t i = 1; i < picture.size(); ++i) {
+  for (std::size_t i = 1; i < picture.size(); ++i)
     for (int c = 0; c < 3; ++c)
       ASSERT_EQ(std::lround(again[i][c] * 255.0),
                 std::lround(static_cast<double>(picture[i][c]) * 255.0));
-  }
 }
 
 TEST(Exr, PictureReadsBackAsHalf) {
@@ -130,9 +127,8 @@ TEST(Exr, PictureReadsBackAsHalf) {
   const Grid<glm::vec3> picture = random_picture(70, 130);
   write_exr(folder / "a.exr", picture, {{"program", "1"}});
   const Grid<glm::vec3> again = read_picture(folder / "a.exr");
-  for (std::size_t i = 0; i < picture.size(); ++i) {
+  for (std::size_t i = 0; i < picture.size(); ++i)
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(again[i][c], picture[i][c], 0x1p-12);
-  }
   EXPECT_EQ(read_image_info(folder / "a.exr").notes, (FileNotes{{"program", "1"}}));
 }
 

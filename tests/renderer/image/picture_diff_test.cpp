@@ -202,5 +202,4 @@ TEST(PictureHash, WhatIsNoPictureIsRefused) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

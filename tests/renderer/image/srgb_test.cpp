@@ -34,11 +34,10 @@ TEST(SrgbTable, RisesThroughItsKnotsAndItsEnds) {
 }
 
 TEST(SrgbTable, BeyondWhatFilesHoldItIsTheCurve) {
-  for (const float encoded : {-0.25F, -1e-3F, 1.0001F, 1.7F}) {
+  for (const float encoded : {-0.25F, -1e-3F, 1.0001F, 1.7F})
     EXPECT_EQ(srgb_decoded_fast(encoded),
               static_cast<float>(srgb_decoded(static_cast<double>(encoded))))
         << encoded;
-  }
   EXPECT_TRUE(std::isnan(srgb_decoded_fast(std::nanf(""))));
 }
 
@@ -121,5 +120,4 @@ TEST(CieLab, TiffsOfLabAreReadInSrgb) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

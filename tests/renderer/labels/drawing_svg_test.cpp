@@ -122,5 +122,4 @@ TEST(PlacedText, NothingStandsOnALineThatIsTooShort) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

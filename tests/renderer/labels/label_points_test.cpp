@@ -296,5 +296,4 @@ TEST_F(LabelMarks, OutsideIsSaid) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -281,5 +281,4 @@ TEST(PaintHalo, AnyWindowWithItsReachGivesTheSameBits) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

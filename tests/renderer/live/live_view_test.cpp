@@ -338,5 +338,4 @@ TEST(Rungs, PreviewsHaveFewRaysAndCoarseGroundAndCopyNothing) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

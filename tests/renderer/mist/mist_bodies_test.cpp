@@ -168,5 +168,4 @@ TEST(LeeCloud, BehindTheEyeThereIsNone) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -295,5 +295,4 @@ TEST(MistProfile, LevelWaysAgreeWithNearlyLevelOnes) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

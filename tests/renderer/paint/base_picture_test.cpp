@@ -536,5 +536,4 @@ TEST(TownGround, LiesUnderSnowInWinter) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -59,9 +59,8 @@ TEST(TransferResidual, AddsAPartOfTheDifferenceOfBases) {
       {0.1f, 0.9f, 0.4f},    // a scan has no base
       {0.6f, 0.8f, 0.2f},    // no match
   };
-  for (int x = 0; x < 4; ++x) {
+  for (int x = 0; x < 4; ++x)
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(out(x, 0)[c], expected[x][c], 1e-6) << x;
-  }
 }
 
 TEST(TransferResidual, SameBaseGivesTheTexel) {
@@ -237,11 +236,10 @@ TEST(MixBorders, TakesTheColourOfWhereTheStrokeGrew) {
   const Grid<glm::vec3> out = mix_borders(copied, draft, land_cover, land_cover, base);
   EXPECT_NEAR(out[here].x, 0.8 * 0.2 + 0.2 * 0.8, 1e-6);
   EXPECT_NEAR(out[here].z, 0.8 * 0.2 + 0.2 * 0.6, 1e-6);
-  for (std::size_t i = 0; i < out.size(); ++i) {
+  for (std::size_t i = 0; i < out.size(); ++i)
     if (i != here) {
       ASSERT_EQ(out[i], copied[i]) << "one class alone";
     }
-  }
   // At the stroke's origin rock has been painted over the grass: its colour there is not that of
   // grass.
   Grid<LandCoverClass> shown = land_cover;
@@ -297,7 +295,7 @@ Edge make_edge(double slope, float far_depth, glm::vec3 near_colour, glm::vec3 f
 TEST(BlendEdges, GivesTheLightOfTheCoveredArea) {
   const glm::vec3 near_colour(0.2f, 0.3f, 0.1f);
   const glm::vec3 far_colour(0.7f, 0.8f, 0.95f);
-  for (const double slope : {0.0, 0.37, 0.9}) {
+  for (const double slope : {0.0, 0.37, 0.9})
     for (const float far_depth : {5300.0f, 40000.0f, infinity}) {
       const Edge e = make_edge(slope, far_depth, near_colour, far_colour);
       const Image out = decode_srgb(blend_edges(e.picture, e.guidance));
@@ -313,7 +311,6 @@ TEST(BlendEdges, GivesTheLightOfTheCoveredArea) {
       }
       EXPECT_LT(largest, 0.05) << slope << " " << far_depth;
     }
-  }
 }
 
 TEST(BlendEdges, LeavesWholePixelsAlone) {
@@ -322,13 +319,12 @@ TEST(BlendEdges, LeavesWholePixelsAlone) {
     e.picture(x, y) += static_cast<float>(0.05 * random_uniform(4, x, y));
   const Grid<glm::vec3> out = blend_edges(e.picture, e.guidance);
   int changed = 0;
-  for (std::size_t i = 0; i < out.size(); ++i) {
+  for (std::size_t i = 0; i < out.size(); ++i)
     if (e.guidance.front[i] == 1.0f) {
       ASSERT_EQ(out[i], e.picture[i]);
     } else {
       changed += out[i] != e.picture[i] ? 1 : 0;
     }
-  }
   EXPECT_GT(changed, 30);
 }
 

@@ -297,5 +297,4 @@ TEST(FrontDeck, ItsEdgeIsBrighterThanItsBody) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -115,5 +115,4 @@ TEST(RangeEdges, AccentsFollowRelief) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

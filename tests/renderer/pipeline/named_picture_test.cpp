@@ -292,5 +292,4 @@ TEST_F(LayerFiles, ASceneWithoutRoadsAndNamesHasNoLayersOfThem) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -274,11 +274,10 @@ TEST_F(Pipeline, ASunBelowTheHorizonIsNotedAndLeavesSkyLight) {
          {.progress = notes, .cache = test::shared_cache()}, {.panorama = false});
   EXPECT_NE(notes.all.find("below the horizon"), std::string::npos);
   const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
-  for (std::size_t i = 0; i < guidance.shadow.size(); ++i) {
+  for (std::size_t i = 0; i < guidance.shadow.size(); ++i)
     if (!guidance.is_sky(i)) {
       ASSERT_EQ(guidance.shadow[i], 0.F);
     }
-  }
 }
 
 }  // namespace

@@ -227,5 +227,4 @@ TEST(DemoViewLong, HasRangesUpToItsHorizonAndNoEndOfTheData) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

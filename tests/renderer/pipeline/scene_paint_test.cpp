@@ -121,5 +121,4 @@ TEST(OutputColour, TakesSpacesByNameAndPresses) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -260,7 +260,7 @@ TEST_F(SheetJob, MatchesAreThoseThePictureWasCopiedBy) {
   EXPECT_EQ(ids("corner", "x"), part_of(x, within));
   EXPECT_EQ(ids("corner", "y"), part_of(y, within));
   int copied = 0;
-  for (std::size_t i = 0; i < exemplar.size(); ++i) {
+  for (std::size_t i = 0; i < exemplar.size(); ++i)
     if (guidance.is_sky(i)) {
       EXPECT_EQ(exemplar[i], Match::none) << i;
     } else if (exemplar[i] != Match::none) {
@@ -269,7 +269,6 @@ TEST_F(SheetJob, MatchesAreThoseThePictureWasCopiedBy) {
       ASSERT_LT(x[i], 240U);
       ASSERT_LT(y[i], 180U);
     }
-  }
   EXPECT_GT(copied, 2000);
   EXPECT_THAT(read_image_info(folder_ / "part/match.exr").notes.at("belvedere:matched_pictures"),
               testing::StartsWith("240 180 "));

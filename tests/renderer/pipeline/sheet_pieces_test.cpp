@@ -161,5 +161,4 @@ TEST(SheetMemory, PaintingsCountBeforeTheyAreRead) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

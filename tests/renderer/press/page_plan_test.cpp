@@ -114,5 +114,4 @@ TEST(VectorPage, SaysWhatIsNoSvg) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

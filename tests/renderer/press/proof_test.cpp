@@ -139,5 +139,4 @@ TEST(PalettePress, HasEveryColourOfThePalette) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

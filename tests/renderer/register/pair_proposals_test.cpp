@@ -229,5 +229,4 @@ TEST(SeenLines, AStepOfMoreThanItsLimitEndsALineAndBeginsAnother) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

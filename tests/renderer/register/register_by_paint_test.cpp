@@ -130,5 +130,4 @@ TEST(DrawnGround, WithoutWidthItIsTheMap) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

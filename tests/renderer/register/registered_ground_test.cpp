@@ -201,5 +201,4 @@ TEST(RegisteredScene, TheBendOnlyLowersTheGround) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

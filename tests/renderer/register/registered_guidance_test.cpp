@@ -148,5 +148,4 @@ TEST(RegisteredLight, GivesPartsOfOtherLightTheirOwn) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -265,5 +265,4 @@ TEST(CrestShift, OfAPartIsThatOfTheWhole) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

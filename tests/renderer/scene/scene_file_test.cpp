@@ -18,12 +18,11 @@ using test::refused;
 using test::scene_of;
 
 namespace fs = std::filesystem;
+using test::input_error;
+using test::usage_error;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-using test::input_error;
-using test::usage_error;
 
 TEST(SceneFile, ReadsEveryKindOfValue) {
   const Scene scene = scene_of(R"(

@@ -107,5 +107,4 @@ TEST(Draft, SmallerPicturesArePaintedAsOnASmallerSheet) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -173,14 +173,13 @@ TEST(SceneTable, LowerLayersDoNotSpeakSceneKeys) {
         // The text between quotes.
         bool quoted = false;
         std::string text;
-        for (std::size_t i = 0; i < line.size(); ++i) {
+        for (std::size_t i = 0; i < line.size(); ++i)
           if (line[i] == '"' && (i == 0 || line[i - 1] != '\\')) {
             quoted = !quoted;
             text += ' ';
           } else if (quoted) {
             text += line[i];
           }
-        }
         for (const std::string& key : keys)
           EXPECT_EQ(text.find(key), std::string::npos)
               << entry.path() << ": " << key << " in " << line;

@@ -163,5 +163,4 @@ TEST(GuidanceChoice, KeepsWholeVectorsAndNothingElse) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

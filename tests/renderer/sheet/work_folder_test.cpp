@@ -243,5 +243,4 @@ TEST(PieceWriter, SaysWhatCouldNotBeWritten) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -208,5 +208,4 @@ TEST(ModelGround, ItsClassesAreHiddenFromSynthesis) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

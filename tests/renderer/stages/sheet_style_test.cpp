@@ -160,5 +160,4 @@ TEST(SheetIce, IsThatOfAllRowsTracedAtOnce) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -168,5 +168,4 @@ TEST(FitAir, LeavesAreColoursOfLitVegetation) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -178,5 +178,4 @@ TEST(StyleFinish, NoShareOfBrushworkLeavesTheGround) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

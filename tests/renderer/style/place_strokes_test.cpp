@@ -112,11 +112,10 @@ TEST(PlaceStrokes, ColoursScatterAroundTheGround) {
 
 TEST(PlaceStrokes, ShadeTakesResidualsOfShade) {
   Placed placed;
-  for (StyleBrushwork& b : placed.style.brushwork) {
+  for (StyleBrushwork& b : placed.style.brushwork)
     b.residuals = {std::vector<glm::vec3>{{0.0F, -0.02F, 0.0F}},
                    std::vector<glm::vec3>{{0.0F, 0.0F, 0.0F}},
                    std::vector<glm::vec3>{{0.0F, 0.02F, 0.0F}}};
-  }
   for (const StyleStroke& stroke : placed.of(0)) {
     if (stroke.id == LandCoverClass::sky) continue;
     const float tone = placed.sheet.guidance.tone(stroke.pixel_px.x, stroke.pixel_px.y);

@@ -205,5 +205,4 @@ TEST(StyleSky, CumulusLeaveTheClearSkyBetweenThem) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

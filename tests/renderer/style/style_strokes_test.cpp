@@ -165,5 +165,4 @@ TEST(PlaceContours, NoneWithoutASilhouette) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -368,5 +368,4 @@ TEST(WideView, ItsRectangleHoldsWhatLiesBetween) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

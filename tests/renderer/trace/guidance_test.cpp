@@ -220,11 +220,10 @@ TEST(Guidance, FootprintIsMetresAPixel) {
   const GuidanceBuffers map = trace(world, *make_camera(p));
   p.projection = "perspective";
   const GuidanceBuffers view = trace(world, *make_camera(p));
-  for (std::size_t i = 0; i < map.depth_m.size(); ++i) {
+  for (std::size_t i = 0; i < map.depth_m.size(); ++i)
     if (!map.is_sky(i)) {
       ASSERT_NEAR(map.footprint_m[i], 50.0, 1e-3);
     }
-  }
   const std::size_t centre = view.depth_m.index(60, 40);
   ASSERT_FALSE(view.is_sky(centre));
   EXPECT_NEAR(view.footprint_m[centre],
@@ -261,7 +260,7 @@ TEST(Guidance, MostSamplesWinThePixelAndItsValuesComeFromOneOfThem) {
   const auto positions = pixel_sample_positions(4);
   int mixed = 0;
   int edges = 0;
-  for (int y = 0; y < b.height(); ++y) {
+  for (int y = 0; y < b.height(); ++y)
     for (int x = 0; x < b.width(); ++x) {
       const std::size_t i = b.depth_m.index(x, y);
       std::array<int, land_cover_class_count> votes{};
@@ -292,7 +291,6 @@ TEST(Guidance, MostSamplesWinThePixelAndItsValuesComeFromOneOfThem) {
       mixed += *std::max_element(votes.begin(), votes.end()) < 4 ? 1 : 0;
       edges += b.front[i] < 1.F ? 1 : 0;
     }
-  }
   EXPECT_GT(mixed, 100);
   EXPECT_GT(edges, 50);
 }
@@ -302,10 +300,9 @@ void expect_same(const Grid<T>& whole, const Grid<T>& part, PixelRect region, Pi
                  std::string_view channel) {
   ASSERT_EQ(part.width(), region.width()) << channel;
   ASSERT_EQ(part.height(), region.height()) << channel;
-  for (const auto [x, y] : test::cells(keep)) {
+  for (const auto [x, y] : test::cells(keep))
     ASSERT_EQ(std::memcmp(&whole(x, y), &part(x - region.x0, y - region.y0), sizeof(T)), 0)
         << channel << " at " << x << ' ' << y;
-  }
 }
 
 // inner: where the channels that read neighbours are the same.
@@ -435,9 +432,8 @@ TEST(Silhouettes, AreFoundTowardsEachOfTheFourSides) {
   EXPECT_EQ(found(4, 4), 1.F);
   for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
     Grid<float> half(9, 9, 5000.F);
-    for (const auto [x, y] : test::cells(9, 9)) {
+    for (const auto [x, y] : test::cells(9, 9))
       if ((x - 4) * dx + (y - 4) * dy <= 0) half(x, y) = 3000.F;
-    }
     EXPECT_EQ(find_silhouettes(half)(4, 4), 1.F) << dx << ' ' << dy;
   }
 }
@@ -500,5 +496,4 @@ TEST(Silhouettes, SameBitsForAnyThreadCount) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -243,8 +243,8 @@ TEST(Sun, AgreesWithTheStandardsOfAstronomy) {
                                             {0.0, 0.0},
                                             {179.9, -45.0},
                                             {-16.0, 78.0}}) {
-    for (const int year : {2020, 2024, 2031, 2040, 2050}) {
-      for (int month = 1; month <= 12; ++month) {
+    for (const int year : {2020, 2024, 2031, 2040, 2050})
+      for (int month = 1; month <= 12; ++month)
         for (const int hour : {0, 5, 9, 12, 17, 22}) {
           const Instant t{year, month, 3 + 2 * month, hour, 37, 11.0};
           const double apart =
@@ -254,8 +254,6 @@ TEST(Sun, AgreesWithTheStandardsOfAstronomy) {
           ++count;
           ASSERT_LE(apart, 0.01) << iso(t) << " at " << longitude << ' ' << latitude;
         }
-      }
-    }
   }
   EXPECT_LE(std::sqrt(squares / count), 0.0028);  // a missing parallax would show here
   RecordProperty("worst_deg", std::to_string(worst));
@@ -263,13 +261,12 @@ TEST(Sun, AgreesWithTheStandardsOfAstronomy) {
 }
 
 TEST(Sun, StaysUsableOutsideItsYears) {
-  for (const int year : {1900, 1925, 1950, 1975, 2000, 2075, 2100}) {
+  for (const int year : {1900, 1925, 1950, 1975, 2000, 2075, 2100})
     for (int month = 1; month <= 12; ++month) {
       const Instant t{year, month, 15, 10, 0, 0.0};
       EXPECT_LE(apart_deg(sun_position(11.39, 47.27, iso(t)), erfa(11.39, 47.27, t)), 0.02)
           << iso(t);
     }
-  }
 }
 
 TEST(Sun, StandsInTheSouthAtNoonAndInTheNorthBelowTheEquator) {
@@ -350,5 +347,4 @@ TEST(SunDirection, IsAUnitVectorEastNorthUp) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

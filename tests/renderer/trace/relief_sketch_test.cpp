@@ -98,5 +98,4 @@ TEST(ClassView, IsTheClassThatOneSampleSees) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

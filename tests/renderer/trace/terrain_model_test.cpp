@@ -292,5 +292,4 @@ TEST(FloorPlan, TownsAreDenserThanVillagesAndInTheirMiddle) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

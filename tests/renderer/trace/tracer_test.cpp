@@ -172,12 +172,11 @@ TEST(Tracer, ShadowOfAWallIsItsHeightOverTheTangent) {
     const glm::dvec3 sun(std::cos(to_radians(altitude)), 0.0, std::sin(to_radians(altitude)));
     // Westwards of the crest's west edge, the shadow ends where the ray passes over it.
     double lit_from = 0.0;
-    for (double x = 8960.0; x > 100.0; x -= 1.0) {
+    for (double x = 8960.0; x > 100.0; x -= 1.0)
       if (!occluded(tracer, ray_from({x, -1500.0, 0.05}, sun))) {
         lit_from = x;
         break;
       }
-    }
     EXPECT_NEAR(9000.0 - lit_from, height / std::tan(to_radians(altitude)), mesh_cell_m)
         << altitude;
     EXPECT_NEAR(9000.0 - lit_from, height / std::tan(to_radians(altitude)), 2.0) << altitude;

@@ -594,5 +594,4 @@ TEST(GroundPlan, SaysWhatIsCoarser) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -85,12 +85,11 @@ TEST_F(PreviewGround, AltitudesAreTheReducedOnesAndWaterKeepsItsLevel) {
   const Grid<float> reduced = reduce(reduce(data.altitude_m));
   ASSERT_TRUE(dem.altitude_m.same_size(reduced));
   int water = 0;
-  for (std::size_t i = 0; i < reduced.size(); ++i) {
+  for (std::size_t i = 0; i < reduced.size(); ++i)
     if (dem.altitude_m[i] == 1100.F)
       ++water;
     else
       ASSERT_EQ(dem.altitude_m[i], reduced[i]);
-  }
   EXPECT_NEAR(water, 20 * 30 / 16, 15);
 }
 

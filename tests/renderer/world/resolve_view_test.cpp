@@ -331,5 +331,4 @@ TEST(CompleteView, HasNoneWhereNoDataLie) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -178,5 +178,4 @@ TEST(CoarseGroundScene, ADraftOfSmallGroundIsADraftAlone) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

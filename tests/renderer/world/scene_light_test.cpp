@@ -319,5 +319,4 @@ TEST(SeenRanges, ToldFromTurnedAwayIsWhatLiesInCastShadow) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

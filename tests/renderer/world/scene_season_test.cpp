@@ -293,5 +293,4 @@ TEST_F(SceneClimateTest, WhatIsMissingIsNamed) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

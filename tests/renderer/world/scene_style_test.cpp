@@ -76,5 +76,4 @@ TEST(WinterStyle, SnowHasTheStrokesOfSnow) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -198,5 +198,4 @@ TEST(ScenePlace, RefusesNeitherAndDegreesWithoutACoordinateSystem) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

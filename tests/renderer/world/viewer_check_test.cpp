@@ -184,5 +184,4 @@ TEST(FoldCheck, FoldsBesideThePictureAreNoted) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

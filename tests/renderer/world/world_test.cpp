@@ -260,5 +260,4 @@ TEST(BareView, BentAnewIsAsIfItHadBeenMadeSo) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

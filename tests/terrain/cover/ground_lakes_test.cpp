@@ -185,5 +185,4 @@ TEST(KnownLakes, TooSmallOrElsewhereChangesNothing) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -177,5 +177,4 @@ TEST(LandCoverErosion, AWindowAgreesWithTheWhole) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -312,5 +312,4 @@ TEST(TownFile, RefusesWhatIsNoSize) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -152,5 +152,4 @@ TEST(MonotoneCurve, IsSmoothAtItsPoints) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

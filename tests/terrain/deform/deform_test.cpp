@@ -454,5 +454,4 @@ TEST(Fold, SameForAnyThreadCount) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

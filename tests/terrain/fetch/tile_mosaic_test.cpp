@@ -38,7 +38,7 @@ TEST(TilePlan, AnAreaHasItsCellsAndSixAroundThem) {
 
 TEST(TilePlan, EveryCellOfAPartLiesInOneTile) {
   const MapSource source = tens();
-  for (const int step : {1, 3}) {
+  for (const int step : {1, 3})
     for (const PartPlan& part : plan_parts(source, {10.2, 58.7, 12.7, 61.6}, step)) {
       const std::vector<TileCells> tiles = tiles_of_part(part);
       EXPECT_EQ(cells_of(tiles), (part.x1 - part.x0) * (part.y1 - part.y0)) << "step " << step;
@@ -47,7 +47,6 @@ TEST(TilePlan, EveryCellOfAPartLiesInOneTile) {
           for (const int x : {t.x0, t.x1 - 1})
             EXPECT_EQ(tile_at(part, x, y), t.tile) << "step " << step;
     }
-  }
 }
 
 TEST(TilePlan, PartsChangeWhereCellsChangeTheirWidth) {

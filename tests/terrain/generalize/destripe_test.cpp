@@ -159,7 +159,7 @@ TEST(Destripe, RealTerrainLosesItsStripes) {
   const auto energy = [](const Grid<float>& z, double tilt) {
     const Grid<float> smooth = gaussian_blur(z, 1.6);
     double sum = 0.0;
-    for (int y = 60; y < z.height() - 60; ++y) {
+    for (int y = 60; y < z.height() - 60; ++y)
       for (int x0 = 0; x0 + 64 <= z.width(); x0 += 64) {
         double line = 0.0;
         for (int x = x0 + 1; x < x0 + 63; ++x) {
@@ -169,7 +169,6 @@ TEST(Destripe, RealTerrainLosesItsStripes) {
         }
         sum += line * line;
       }
-    }
     return sum;
   };
   EXPECT_GT(energy(before, -0.1), 2.0 * energy(before, 0.2));

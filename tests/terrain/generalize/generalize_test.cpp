@@ -24,9 +24,8 @@ using test::largest_difference;
 // Equation 2 as written, by the pyramid; weights coarsest first.
 Grid<float> equation_two(const Grid<float>& altitude_m, const std::vector<float>& weights) {
   LaplacianPyramid pyramid = make_laplacian_pyramid(altitude_m, static_cast<int>(weights.size()));
-  for (std::size_t i = 0; i < pyramid.bands.size(); ++i) {
+  for (std::size_t i = 0; i < pyramid.bands.size(); ++i)
     for (float& v : pyramid.bands[i]) v *= weights[weights.size() - 1 - i];
-  }
   return test::reconstruct(pyramid);
 }
 
@@ -143,11 +142,10 @@ struct LakeCase {
 TEST(Generalize, LakesKeepTheirLevelExactly) {
   const LakeCase c;
   const Grid<float> out = generalized(c.terrain, c.parameters, {}, c.keep);
-  for (std::size_t i = 0; i < out.size(); ++i) {
+  for (std::size_t i = 0; i < out.size(); ++i)
     if (c.keep[i] != 0) {
       ASSERT_EQ(out[i], 800.F);
     }
-  }
 }
 
 TEST(Generalize, NoStepStandsAtTheShore) {
@@ -222,19 +220,17 @@ TEST(Generalize, CrestEqualsItsFormula) {
   const LaplacianPyramid bands = make_laplacian_pyramid(terrain, 6);
   const auto keep_bands = [&](std::vector<float> weights, bool base) {
     LaplacianPyramid kept = bands;
-    for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t i = 0; i < 6; ++i)
       for (float& v : kept.bands[i]) v *= weights[i];
-    }
     if (!base) std::fill(kept.base.begin(), kept.base.end(), 0.F);
     return test::reconstruct(kept);
   };
   const Grid<float> detail = keep_bands({0, 1, 1, .6F, 0, 0}, false);
   const Grid<float> ground = keep_bands({0, 0, 0, 0, 1, 1}, true);
   Grid<float> expected = terrain;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
+  for (std::size_t i = 0; i < expected.size(); ++i)
     expected[i] += 1.5F * std::clamp((ground[i] - 1200.F) / 700.F, 0.F, 1.F) *
                    std::clamp(detail[i], 0.F, 60.F);
-  }
   EXPECT_LE(largest_difference(out, expected), 5e-3);
 }
 

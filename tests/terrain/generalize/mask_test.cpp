@@ -66,7 +66,7 @@ TEST_F(MaskFile, WithoutDataIsGeneralized) {
 TEST_F(MaskFile, HardEdgesOnOtherCellsStayInTheirRange) {
   // Resampling must not produce values below 0 or above 1: the mask would be rejected, or read as
   // one of 0…255.
-  for (const double cell : {50.0, 20.0, 7.0}) {
+  for (const double cell : {50.0, 20.0, 7.0})
     for (const double max : {1.0, 255.0}) {
       const int width = static_cast<int>(600.0 / cell) + 1;
       const int height = static_cast<int>(360.0 / cell) + 1;
@@ -79,7 +79,6 @@ TEST_F(MaskFile, HardEdgesOnOtherCellsStayInTheirRange) {
       EXPECT_NEAR(mask(4, 6), 1.F, 1e-6F) << cell << ' ' << max;
       EXPECT_NEAR(mask(16, 6), 0.F, 1e-6F) << cell << ' ' << max;
     }
-  }
 }
 
 TEST_F(MaskFile, SaysWhatIsWrong) {
@@ -214,5 +213,4 @@ TEST(ForegroundShare, IsHardlySteeperThanALineAndHasNoCrease) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

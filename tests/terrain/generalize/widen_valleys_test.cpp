@@ -120,11 +120,10 @@ TEST(WidenValleys, LakesStay) {
     valley(x, y) = valley(100, 159);
   }
   const Grid<float> out = widen(valley, valleys_of(480.F), keep);
-  for (std::size_t i = 0; i < out.size(); ++i) {
+  for (std::size_t i = 0; i < out.size(); ++i)
     if (keep[i] != 0) {
       EXPECT_EQ(out[i], valley[i]);
     }
-  }
 }
 
 // Features on a lake and at its shores do not move.
@@ -293,5 +292,4 @@ TEST(MovedGround, ThereAndBackIsTheSamePlace) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -113,5 +113,4 @@ TEST(RasterThinned, SmallFilesAreThemselves) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

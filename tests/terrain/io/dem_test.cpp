@@ -481,5 +481,4 @@ TEST_F(HeightDoubts, AFileReadAloneIsJudgedAlike) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -245,5 +245,4 @@ TEST_F(Streams, EndWithTheirObject) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

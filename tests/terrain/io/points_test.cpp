@@ -248,5 +248,4 @@ TEST_F(Lines, WrongFilesAreSaid) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

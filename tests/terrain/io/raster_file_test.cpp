@@ -406,5 +406,4 @@ TEST(ByteRasterRows, RefusesGapsAndPlacesThatAreNone) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

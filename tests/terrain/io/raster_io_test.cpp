@@ -560,5 +560,4 @@ TEST_F(RasterOfSeveral, OtherFormatsAreRefusedWithTheCommandThatConvertsThem) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -176,5 +176,4 @@ TEST(LatticeMap, LongitudesAreCountedNearTheSource) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

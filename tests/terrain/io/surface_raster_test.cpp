@@ -32,13 +32,12 @@ TEST(SurfaceRaster, AShiftByWholeCellsMovesTheCells) {
   const Grid<float> z = rough(50, 40);
   const Grid<float> moved = raster_of_moved(
       z, frame, [](glm::dvec3 p) { return glm::dvec3(p.x + 90.0, p.y + 60.0, p.z); });
-  for (const auto [x, y] : test::cells(50, 40)) {
+  for (const auto [x, y] : test::cells(50, 40))
     if (x < 3 || y >= 38) {
       EXPECT_TRUE(std::isnan(moved(x, y)));
     } else {
       EXPECT_EQ(moved(x, y), z(x - 3, y + 2)) << x << ' ' << y;
     }
-  }
 }
 
 TEST(SurfaceRaster, ATurnedPlaneIsThePlaneTurned) {

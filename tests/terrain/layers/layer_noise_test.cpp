@@ -257,5 +257,4 @@ TEST(LakeBeds, NoneIsDeeperThanAllowed) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

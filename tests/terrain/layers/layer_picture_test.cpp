@@ -357,5 +357,4 @@ TEST(LayerDrawing, NothingIsDrawnWhereNothingIs) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

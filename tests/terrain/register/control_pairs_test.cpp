@@ -170,5 +170,4 @@ TEST(HighestCells, KeepSummits) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

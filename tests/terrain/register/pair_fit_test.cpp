@@ -277,5 +277,4 @@ TEST(MovedMountain, CoresOfSeveralMustNotOverlap) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -283,5 +283,4 @@ TEST(PreventFolds, GroundThatKeepsItsOrderIsLeftAlone) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

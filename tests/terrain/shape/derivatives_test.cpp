@@ -148,7 +148,7 @@ TEST(Slope, WithinBoundsIsTheSlope) {
   const Grid<float> all = slope_deg(z, 10.0, 10.0);
   const Grid<float> some = slope_deg(z, 10.0, 10.0, {3.0, 12.0});
   std::size_t between = 0;
-  for (std::size_t i = 0; i < z.size(); ++i) {
+  for (std::size_t i = 0; i < z.size(); ++i)
     if (all[i] < 2.999F) {
       EXPECT_EQ(some[i], 0.0F);
     } else if (all[i] > 12.001F) {
@@ -157,7 +157,6 @@ TEST(Slope, WithinBoundsIsTheSlope) {
       EXPECT_EQ(some[i], all[i]);
       ++between;
     }
-  }
   EXPECT_GT(between, 300U);
   EXPECT_LT(between, z.size() - 300U);
 }
@@ -218,5 +217,4 @@ TEST_F(HillshadeFiles, IsWhatGdaldemMakes) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -16,7 +16,6 @@
 #include "tests/grids.h"
 
 namespace belvedere::test {
-
 namespace heightfield {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -41,12 +41,11 @@ std::optional<double> brute_force(const Grid<glm::vec3>& vertices, glm::dvec3 or
     const double t = glm::dot(ac, q) / determinant;
     if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0) nearest = std::min(nearest, t);
   };
-  for (int y = 0; y + 1 < vertices.height(); ++y) {
+  for (int y = 0; y + 1 < vertices.height(); ++y)
     for (int x = 0; x + 1 < vertices.width(); ++x) {
       facet(vertices(x, y), vertices(x + 1, y), vertices(x, y + 1));
       facet(vertices(x + 1, y + 1), vertices(x, y + 1), vertices(x + 1, y));
     }
-  }
   if (std::isinf(nearest)) return std::nullopt;
   return nearest;
 }

@@ -155,9 +155,8 @@ TEST(FlowAccumulation, EveryCellDrainsStrictlyDownstream) {
   const Grid<float> area = flow_accumulation_km2(ground, 1000.0);
   for (const auto [x, y] : test::cells({1, 1, 69, 54})) {
     bool drains = false;
-    for (int v = y - 1; v <= y + 1; ++v) {
+    for (int v = y - 1; v <= y + 1; ++v)
       for (int u = x - 1; u <= x + 1; ++u) drains = drains || area(u, v) > area(x, y);
-    }
     ASSERT_TRUE(drains) << x << ' ' << y;
   }
   EXPECT_EQ(*std::min_element(area.begin(), area.end()), 1.F);
@@ -167,10 +166,9 @@ TEST(FlowAccumulation, LosesNoWater) {
   // Noise full of hollows inside a moat that falls towards one corner: all water must leave there,
   // to the last cell.
   Grid<float> ground = rough(50, 40, 6);
-  for (const auto [x, y] : test::cells(50, 40)) {
+  for (const auto [x, y] : test::cells(50, 40))
     if (x == 0 || y == 0 || x == 49 || y == 39)
       ground(x, y) = 1.F + 0.5F * static_cast<float>(x + y);
-  }
   EXPECT_EQ(flow_accumulation_km2(ground, 1000.0)(0, 0), 2000.F);
   EXPECT_FLOAT_EQ(flow_accumulation_km2(ground, 50.0)(0, 0), 5.F);
 }
@@ -211,9 +209,8 @@ TEST(Lakes, NeedSizeAndFlatness) {
   EXPECT_GT(count(find_lakes(ripples, {.max_range_m = 0.4F})), 500);
   // A channel three cells wide is not a lake, however long.
   Grid<float> channel(200, 30, 50.F);
-  for (int x = 0; x < 200; ++x) {
+  for (int x = 0; x < 200; ++x)
     for (int y = 14; y < 17; ++y) channel(x, y) = 40.F;
-  }
   for (const auto [x, y] : test::cells(200, 30))
     channel(x, y) += y < 14 || y > 16 ? static_cast<float>(std::abs(y - 15)) : 0.F;
   EXPECT_EQ(count(find_lakes(channel, {})), 0);
@@ -445,5 +442,4 @@ TEST(Rivers, ATributaryDoesNotMoveItsRiver) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

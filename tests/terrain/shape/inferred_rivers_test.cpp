@@ -288,5 +288,4 @@ TEST(RiverReaches, LoseTheStairsOfTheGridButNotTheirEnds) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

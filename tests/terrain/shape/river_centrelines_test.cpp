@@ -237,5 +237,4 @@ TEST(JoinedRivers, PlacesWithoutALineAreLeftOut) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -79,7 +79,7 @@ TEST(SpillLevel, IsThatOfAFlood) {
                                    {2, 50, 4, {3, 77}},
                                    {3, 3, 9, {4}},
                                    {1, 1, 5, {0}}};
-  for (const Case& c : cases) {
+  for (const Case& c : cases)
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
       Grid<float> filled = rough(c.width, c.height, c.metres, seed);
       const Grid<float> expected = flooded(filled, c.outlets);
@@ -87,7 +87,6 @@ TEST(SpillLevel, IsThatOfAFlood) {
       fill_to_spill_level(filled, c.outlets);
       ASSERT_TRUE(filled == expected) << c.width << " × " << c.height << ", " << seed;
     }
-  }
 }
 
 }  // namespace

@@ -172,5 +172,4 @@ TEST(Summits, LandBelowTheSeaRanksByItsHeight) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

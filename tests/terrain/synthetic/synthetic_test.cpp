@@ -61,14 +61,13 @@ TEST(SyntheticTerrain, EveryCellDrainsToTheRimOrALake) {
   std::vector<std::uint8_t> lake;
   level_areas(z, lake, 12);
   int pits = 0;
-  for (int y = 1; y + 1 < z.height(); ++y) {
+  for (int y = 1; y + 1 < z.height(); ++y)
     for (int x = 1; x + 1 < z.width(); ++x) {
       if (lake[z.index(x, y)] != 0) continue;
       bool falls = false;
       for_neighbours(z, x, y, [&](std::size_t j) { falls = falls || z[j] < z(x, y); });
       pits += falls ? 0 : 1;
     }
-  }
   EXPECT_EQ(pits, 0);
 }
 

@@ -124,5 +124,4 @@ TEST(LayoutFigures, OfOtherColoursHaveNothingInCommon) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

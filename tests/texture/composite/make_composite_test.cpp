@@ -254,5 +254,4 @@ TEST(CompositeModelFile, DamageIsNamed) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

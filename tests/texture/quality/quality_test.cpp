@@ -25,9 +25,8 @@ Rgb8 grey(int value) {
 // Horizontal dashes of `length` pixels, each with its own brightness.
 Grid<Rgb8> dashes(int width, int height, int length, std::uint64_t seed) {
   Grid<Rgb8> picture(width, height);
-  for (const auto [x, y] : test::cells(width, height)) {
+  for (const auto [x, y] : test::cells(width, height))
     picture(x, y) = grey(40 + static_cast<int>(random_index(160, seed, (x + 7 * y) / length, y)));
-  }
   return picture;
 }
 
@@ -372,12 +371,11 @@ TEST(Quality, SeamsAreJudgedByTheirClassAndKind) {
       exemplar.picture(x, y) = grey(100 + add + (x + y) % 2 * 10);
     return exemplar;
   };
-  for (const int d : {0, 10, 40}) {
+  for (const int d : {0, 10, 40})
     EXPECT_DOUBLE_EQ(
         seam_visibility(halves(20, 10), {board(0), board(d)}, {}, 1.04F).between.visibility,
         std::max(d, 10) / 10.0)
         << d;
-  }
   // A row moved by two texels: a seam to the rows above and below, inside the painting, that steps
   // as before.
   MatchField field = halves(20, 10);
@@ -435,14 +433,13 @@ TEST(Quality, SynthesisKnitsPaintingsAndPaintingsOfAnotherToneShow) {
   const std::vector<Exemplar> dissimilar{painting(1, 1, 0), painting(2, 2, 120)};
   // Random texels of the right class: every pair is a seam, the worst case.
   MatchField chance(90, 70);
-  for (std::size_t i = 0; i < chance.size(); ++i) {
+  for (std::size_t i = 0; i < chance.size(); ++i)
     for (std::uint64_t draw = 0; chance[i].exemplar == Match::none; ++draw) {
       const auto e = static_cast<std::uint16_t>(random_index(2, 7, i, draw));
       const auto x = static_cast<std::uint16_t>(random_index(96, 8, i, draw));
       const auto y = static_cast<std::uint16_t>(random_index(80, 9, i, draw));
       if (alike[e].guides.label(x, y) == target.label[i]) chance[i] = {e, x, y};
     }
-  }
   const double worst = seams(alike, chance).between.visibility;
   const SeamsOfKinds similar = seams(alike, synthesize(alike, target, {}, silent_progress()));
   const SeamsOfKinds other =

@@ -250,5 +250,4 @@ TEST(PieceFeatures, NeighboursWithoutContourAreCloser) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -201,5 +201,4 @@ TEST(CliquePartition, JoiningTakesTheBestPairEachTime) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -262,10 +262,9 @@ const Picture& picture_of(const Sheet& sheet) {
 TEST(SheetWindow, EachKindPaintsInAWindowWhatItPaintsOnTheWhole) {
   for (const Sheet& sheet : sheets) {
     const Picture& p = picture_of(sheet);
-    for (const StrokeKind& kind : stroke_kinds()) {
+    for (const StrokeKind& kind : stroke_kinds())
       EXPECT_EQ(kind_differences(kind, p, 10, 1.0), 0)
           << kind.name << " at " << sheet.pixels_per_unit;
-    }
   }
 }
 

@@ -582,5 +582,4 @@ TEST(FarStrokes, TreesAreFewerTheFartherAndAsTall) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

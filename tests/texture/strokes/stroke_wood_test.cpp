@@ -250,7 +250,7 @@ TEST(Wood, StandsInBeltsByHeight) {
     glm::dvec3 counts(0.0);  // leafy, golden in the light, blunt
     double bodies = 0.0;
     double lit = 0.0;
-    for (const Stroke& s : wood_strokes(p.scene())) {
+    for (const Stroke& s : wood_strokes(p.scene()))
       if (is_body(s)) {
         bodies += 1.0;
         counts.x += s.end_width >= s.start_width;
@@ -259,7 +259,6 @@ TEST(Wood, StandsInBeltsByHeight) {
         lit += 1.0;
         counts.y += s.colour.x - s.colour.z > 0.2F;
       }
-    }
     return counts / glm::dvec3(bodies, lit, bodies);
   };
   const glm::dvec3 low = shares(700.F, 0.8, 1820.0);

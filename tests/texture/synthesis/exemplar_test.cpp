@@ -193,5 +193,4 @@ TEST(ClassTexels, TheNumberNeededIsTheLeastThatIsEnough) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

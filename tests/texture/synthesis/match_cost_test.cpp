@@ -20,14 +20,13 @@ Exemplar noise(int width, int height, std::uint64_t seed) {
   exemplar.picture = Grid<Rgb8>(width, height);
   exemplar.guides.label = Grid<std::uint8_t>(width, height);
   Grid<std::uint8_t> altitude(width, height);
-  for (int y = 0; y < height; ++y) {
+  for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       for (std::size_t c = 0; c < 3; ++c)
         exemplar.picture(x, y)[c] = static_cast<std::uint8_t>(random_index(256, seed, x, y, c));
       exemplar.guides.label(x, y) = x < width / 2 ? 3 : 200;
       altitude(x, y) = static_cast<std::uint8_t>(random_index(256, seed, x, y, 4));
     }
-  }
   exemplar.guides.guides = {{"altitude", altitude}};
   return exemplar;
 }
@@ -47,12 +46,11 @@ TEST(MatchCost, APieceOfTheExemplarCostsNothing) {
   Grid<std::uint8_t> labels(20, 12);
   GuideStack target;
   target.guides = {{"altitude", Grid<std::uint8_t>(20, 12)}};
-  for (int y = 0; y < 12; ++y) {
+  for (int y = 0; y < 12; ++y)
     for (int x = 0; x < 20; ++x) {
       labels(x, y) = exemplars[0].guides.label(x + 9, y + 8);
       target.guides[0].values(x, y) = exemplars[0].guides.guides[0].values(x + 9, y + 8);
     }
-  }
   target.label = labels;
   EXPECT_EQ(seam_cost(matches, exemplars, labels, {}), Grid<float>(20, 12, 0.F));
   EXPECT_EQ(guide_error(matches, exemplars, target, "altitude"), Grid<std::uint8_t>(20, 12, 0));
@@ -82,7 +80,7 @@ TEST(MatchCost, SeamsAreTheSumOverThePatch) {
   for (const auto& [x, y] : {std::pair{10, 10}, {3, 3}, {12, 17}, {0, 0}, {23, 20}, {6, 8}}) {
     const Match& m = matches(x, y);
     double sum = 0.0;
-    for (int j = -3; j <= 3; ++j) {
+    for (int j = -3; j <= 3; ++j)
       for (int i = -3; i <= 3; ++i) {
         if (!matches.contains(x + i, y + j) || labels(x + i, y + j) == unused_label) continue;
         const Rgb8 here = colour(x + i, y + j);
@@ -93,7 +91,6 @@ TEST(MatchCost, SeamsAreTheSumOverThePatch) {
         if (labels(x + i, y + j) != exemplars[m.exemplar].guides.label(m.x + i, m.y + j))
           sum += 8.0 * 3000.0;
       }
-    }
     EXPECT_EQ(found(x, y), static_cast<float>(std::floor(sum / 8.0))) << x << ", " << y;
   }
   EXPECT_EQ(found(5, 5), 0.F);

@@ -27,14 +27,13 @@ class PlainSynthesis {
         made_(target.width(), target.height()) {}
 
   MatchField run() {
-    for (int y = 0; y < made_.height(); ++y) {
+    for (int y = 0; y < made_.height(); ++y)
       for (int x = 0; x < made_.width(); ++x) {
         std::vector<Match> candidates;
         if (coherent_) candidates = continuing(x, y);
         made_(x, y) =
             cheapest(x, y, candidates.empty() ? all_texels_of(target_.label(x, y)) : candidates);
       }
-    }
     return made_;
   }
 

@@ -28,7 +28,7 @@ std::int64_t naive_patch_cost(const Plane& target, std::uint32_t pixel, const Pl
                               const std::array<std::array<bool, 7>, 7>& counts) {
   std::int64_t sum = 0;
   std::int64_t mismatches = 0;
-  for (int dy = -3; dy <= 3; ++dy) {
+  for (int dy = -3; dy <= 3; ++dy)
     for (int dx = -3; dx <= 3; ++dx) {
       const std::uint32_t a = target.words[static_cast<std::size_t>(
           static_cast<std::int64_t>(pixel) + dy * target.stride + dx)];
@@ -44,7 +44,6 @@ std::int64_t naive_patch_cost(const Plane& target, std::uint32_t pixel, const Pl
       }
       if (class_of(a) != class_of(b)) ++mismatches;
     }
-  }
   return (sum >> 3) + 3000 * mismatches;
 }
 
@@ -109,13 +108,13 @@ TEST_P(EachVectorWidth, PatchesOfEverySizeEqualTheFormula) {
       const int side = 2 * radius + 1;
       const std::int64_t mismatch =
           std::lround(24000.0 * 49.0 / (side * side) * 256.0 / static_cast<double>(scale_q8));
-      for (int y = 0; y < 21; ++y) {
+      for (int y = 0; y < 21; ++y)
         for (int x = 0; x < 19; ++x) {
           const std::uint32_t pixel = target.index(0, x, y);
           if (class_of(target.words[pixel]) == no_class) continue;
           const std::uint32_t texel = exemplars.index(0, (3 * x + y) % 23, (5 * y + x) % 17);
           std::int64_t sum = 0;
-          for (int dy = -radius; dy <= radius; ++dy) {
+          for (int dy = -radius; dy <= radius; ++dy)
             for (int dx = -radius; dx <= radius; ++dx) {
               const std::uint32_t a = target.words[static_cast<std::size_t>(
                   static_cast<std::int64_t>(pixel) + dy * target.stride + dx)];
@@ -131,11 +130,9 @@ TEST_P(EachVectorWidth, PatchesOfEverySizeEqualTheFormula) {
               }
               if (class_of(a) != class_of(b)) sum += mismatch;
             }
-          }
           ASSERT_EQ(patch_cost(view, pixel, texel), (sum * scale_q8 >> 8) >> 3)
               << side << " × " << side << " at " << x << ", " << y;
         }
-      }
     }
   }
 }
@@ -149,10 +146,9 @@ TEST_P(EachVectorWidth, BlackAgainstWhiteDoesNotOverflow) {
   pad(target);
   const KernelView view{.target = &target, .exemplars = &exemplars};
   std::int64_t weights = 0;
-  for (int dy = -3; dy <= 3; ++dy) {
+  for (int dy = -3; dy <= 3; ++dy)
     for (int dx = -3; dx <= 3; ++dx)
       weights += std::lround(16.0 * std::exp(-(dx * dx + dy * dy) / 8.0));
-  }
   EXPECT_EQ(patch_cost(view, target.index(0, 3, 3), exemplars.index(0, 3, 3)),
             (weights * 3 * 255 * 255 >> 3) + 49 * 3000);
 }
@@ -226,12 +222,11 @@ TEST_P(EachVectorWidth, PatchesEndAtSilhouettes) {
   // A near disc in front of a far plain in front of the sky.
   Grid<float> depth(20, 20, 9000.0F);
   const auto near_disc = [](int x, int y) { return (x - 9) * (x - 9) + (y - 12) * (y - 12) < 20; };
-  for (int y = 0; y < 20; ++y) {
+  for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 20; ++x) {
       if (near_disc(x, y)) depth(x, y) = 1000.0F;
       if (y < 5) depth(x, y) = std::numeric_limits<float>::infinity();
     }
-  }
   LevelState state(settings_for_level(2, 1, 240, 1.0), {}, classes, exemplars, target,
                    make_links(depth, target, 1.04F));
   start_from_picks(state);
@@ -241,14 +236,12 @@ TEST_P(EachVectorWidth, PatchesEndAtSilhouettes) {
   for (const auto& [x, y] :
        {std::pair{9, 12}, {9, 9}, {12, 14}, {5, 4}, {5, 5}, {15, 6}, {13, 8}, {0, 0}, {19, 19}}) {
     auto counts = whole_patch();
-    for (int dy = -3; dy <= 3; ++dy) {
-      for (int dx = -3; dx <= 3; ++dx) {
+    for (int dy = -3; dy <= 3; ++dy)
+      for (int dx = -3; dx <= 3; ++dx)
         if (depth.contains(x + dx, y + dy)) {
           counts[static_cast<std::size_t>(dy + 3)][static_cast<std::size_t>(dx + 3)] =
               depth(x + dx, y + dy) == depth(x, y);
         }
-      }
-    }
     const std::uint32_t pixel = target.index(0, x, y);
     EXPECT_EQ(patch_cost(view, pixel, exemplars.index(0, 20, 20)),
               naive_patch_cost(target, pixel, exemplars, exemplars.index(0, 20, 20), counts))
@@ -267,9 +260,8 @@ void expect_cheapest_candidates(bool with_silhouettes) {
   settings.draws = 4;
   // Vertical bands at different depths.
   Grid<float> depth(21, 23, 1000.0F);
-  for (int y = 0; y < 23; ++y) {
+  for (int y = 0; y < 23; ++y)
     for (int x = 0; x < 21; ++x) depth(x, y) = 1000.0F + 100.0F * static_cast<float>(x / 3);
-  }
   const auto same_surface = [&](int x, int y, int dx) {
     return !with_silhouettes || depth.clamped(x + dx, y) == depth(x, y);
   };
@@ -319,11 +311,10 @@ void expect_cheapest_candidates(bool with_silhouettes) {
           candidates;  // with the price of joining; the cheapest offer comes first below
       std::set<std::uint32_t> offered;
       std::set<std::uint32_t> across;  // pieces that continue behind a silhouette
-      for (const int dx : {-1, 1}) {
+      for (const int dx : {-1, 1})
         if (!same_surface(x, y, dx))
           across.insert(static_cast<std::uint32_t>(
               static_cast<std::int64_t>(before.match[target.index(0, x + dx, y)]) - dx));
-      }
       const auto offer = [&](std::uint32_t texel, std::int64_t join) {
         if (across.count(texel) > 0 ||
             (records_before.at(texel).uses() >= 2 && texel != before.match[pixel]))
@@ -342,10 +333,9 @@ void expect_cheapest_candidates(bool with_silhouettes) {
       }
       offer(finish_fitting_draw(view, pixel, begin_draw(view, pixel, view.key, x, y), slack), 0);
       auto counts = whole_patch();
-      for (auto& row : counts) {
+      for (auto& row : counts)
         for (int dx = -3; dx <= 3; ++dx)
           row[static_cast<std::size_t>(dx + 3)] = same_surface(x, y, dx);
-      }
       std::uint32_t best = 0;
       std::int64_t best_cost = std::numeric_limits<std::int64_t>::max();
       for (const auto& [texel, join] : candidates) {

@@ -17,19 +17,17 @@ TEST(Replacement, MovesPiecesWholeAndWithinTheirClass) {
   Plane target = make_plane({{60, 50}}, 1);
   const LevelSettings settings = settings_for_level(0, 1, 100, 1.0);
   // The target is a part of the exemplar, copied from there as one piece.
-  for (int y = 0; y < 50; ++y) {
+  for (int y = 0; y < 50; ++y)
     for (int x = 0; x < 60; ++x) {
       target.words[target.index(0, x, y)] =
           exemplars.words[exemplars.index(0, x + 40, y + 30)] & 0xff000000U;
       target.guides[target.index(0, x, y)] = exemplars.guides[exemplars.index(0, x + 40, y + 30)];
     }
-  }
   pad(target);
   LevelState state(settings, {GuideRole{2880}}, classes, exemplars, target, {});
-  for (int y = 0; y < 50; ++y) {
+  for (int y = 0; y < 50; ++y)
     for (int x = 0; x < 60; ++x)
       state.match[target.index(0, x, y)] = exemplars.index(0, x + 40, y + 30);
-  }
   recount(state);
   state.pieces.find(target, exemplars, state.match);
   ASSERT_EQ(state.pieces.largest(), 3000U);

@@ -143,7 +143,7 @@ TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
           guide_cost(view, target.guides_at(pixel), of_texel, slack) +
           state.source->around_price(state.target_around[pixel], around[texel]);
       std::int64_t squares = 0;
-      for (int dy = -2; dy <= 2; ++dy) {
+      for (int dy = -2; dy <= 2; ++dy)
         for (int dx = -2; dx <= 2; ++dx) {
           if (!(std::abs(dx * dy) == 1 || (dx * dy == 0 && std::abs(dx + dy) == 2))) continue;
           const std::int64_t step_target = dx + static_cast<std::int64_t>(dy) * target.stride;
@@ -155,7 +155,6 @@ TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
               grey(requested) - grey(exemplars.words[static_cast<std::size_t>(texel + step_texel)]);
           squares += off * off;
         }
-      }
       if (cost + price::grey * squares < min_fit) {
         min_fit = cost + price::grey * squares;
         best_fit = texel;
@@ -192,14 +191,13 @@ TEST(Bins, WhatStaysTooOftenGrowsDearerUpToABound) {
 TEST(Bins, ABorderOfClassesIsNoContrast) {
   // Class 0: above, calm; below, busy; on its right a class that is far brighter.
   Plane exemplars = make_plane({{40, 40}}, 0);
-  for (int y = 0; y < 40; ++y) {
+  for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x) {
       const std::uint32_t grey = x >= 20  ? 250U
                                  : y < 20 ? 100U + static_cast<std::uint32_t>((x ^ y) & 1)
                                           : 80U + 40U * ((x ^ y) & 1);
       exemplars.words[exemplars.index(0, x, y)] = grey * 0x010101U | (x >= 20 ? 1U << 24 : 0U);
     }
-  }
   pad(exemplars);
   const std::vector<std::uint8_t> bins = make_bins(exemplars, 2);
   const auto contrast = [&](int x, int y) { return bins[exemplars.index(0, x, y)] % 8; };
@@ -210,5 +208,4 @@ TEST(Bins, ABorderOfClassesIsNoContrast) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::synth

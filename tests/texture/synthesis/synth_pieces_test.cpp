@@ -23,20 +23,19 @@ TEST(Pieces, EqualAFloodFillForAnyBand) {
   const auto offset = [](int x, int y) {
     return static_cast<int>(random_index(3, 11, x / 6, y / 9));
   };
-  for (int y = 0; y < 140; ++y) {
+  for (int y = 0; y < 140; ++y)
     for (int x = 0; x < 70; ++x)
       match[target.index(0, x, y)] = exemplars.index(0, x + 9 * offset(x, y), y);
-  }
   Pieces pieces(target);
   pieces.find(target, exemplars, match);
   Grid<int> seen(70, 140, -1);
   std::uint32_t largest = 0;
-  for (int y = 0; y < 140; ++y) {
+  for (int y = 0; y < 140; ++y)
     for (int x = 0; x < 70; ++x) {
       if (seen(x, y) >= 0) continue;
       std::vector<std::pair<int, int>> open{{x, y}};
       seen(x, y) = 1;
-      for (std::size_t i = 0; i < open.size(); ++i) {
+      for (std::size_t i = 0; i < open.size(); ++i)
         for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
           const int nx = open[i].first + dx;
           const int ny = open[i].second + dy;
@@ -45,14 +44,12 @@ TEST(Pieces, EqualAFloodFillForAnyBand) {
           seen(nx, ny) = 1;
           open.emplace_back(nx, ny);
         }
-      }
       largest = std::max(largest, static_cast<std::uint32_t>(open.size()));
       for (const auto& [px, py] : open) {
         ASSERT_EQ(pieces.size()[target.index(0, px, py)], open.size());
         ASSERT_EQ(pieces.first_pixel(target.index(0, px, py)), target.index(0, x, y));
       }
     }
-  }
   EXPECT_EQ(pieces.largest(), largest);
   EXPECT_GT(largest, 64U);
 }

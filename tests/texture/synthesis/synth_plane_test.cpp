@@ -15,7 +15,7 @@ TEST(Plane, StepsOutOfAPictureLandOnNoClass) {
   const Plane plane = noise_plane({{5, 7}, {9, 3}, {1, 1}}, 2, 5, false);
   for (int p = 0; p < 3; ++p) {
     const Plane::Part& part = plane.parts[static_cast<std::size_t>(p)];
-    for (int y = -padding; y < part.height + padding; ++y) {
+    for (int y = -padding; y < part.height + padding; ++y)
       for (int x = -padding; x < part.width + padding; ++x) {
         const bool inside = x >= 0 && y >= 0 && x < part.width && y < part.height;
         const std::uint32_t at = plane.index(p, x, y);
@@ -24,7 +24,6 @@ TEST(Plane, StepsOutOfAPictureLandOnNoClass) {
         const Plane::Place position = plane.position(at);
         ASSERT_EQ(std::make_tuple(position.part, position.x, position.y), std::make_tuple(p, x, y));
       }
-    }
   }
 }
 

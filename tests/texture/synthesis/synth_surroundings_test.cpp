@@ -22,29 +22,26 @@ TEST(Surroundings, AreTheCountsOfTheWindow) {
     const std::vector<Surroundings> around = make_surroundings(plane, radius, classes);
     for (int p = 0; p < 2; ++p) {
       const Plane::Part& part = plane.parts[static_cast<std::size_t>(p)];
-      for (int y = 0; y < part.height; y += 3) {
+      for (int y = 0; y < part.height; y += 3)
         for (int x = 0; x < part.width; x += 5) {
           const std::uint32_t own = class_of(plane.words[plane.index(p, x, y)]);
           if (own == no_class) continue;
           std::array<int, classes> counts{};
-          for (int j = std::max(0, y - radius); j <= std::min(part.height - 1, y + radius); ++j) {
+          for (int j = std::max(0, y - radius); j <= std::min(part.height - 1, y + radius); ++j)
             for (int i = std::max(0, x - radius); i <= std::min(part.width - 1, x + radius); ++i) {
               const std::uint32_t c = class_of(plane.words[plane.index(p, i, j)]);
               if (c != no_class) ++counts[c];
             }
-          }
           const int total = counts[0] + counts[1] + counts[2];
           const Surroundings found = around[plane.index(p, x, y)];
           ASSERT_EQ(found.others, 255 * (total - counts[own]) / total) << x << ", " << y;
           if (total == counts[own]) continue;
           ASSERT_NE(found.commonest, own);
-          for (std::uint32_t c = 0; c < classes; ++c) {
+          for (std::uint32_t c = 0; c < classes; ++c)
             if (c != own) {
               ASSERT_GE(counts[found.commonest], counts[c]);
             }
-          }
         }
-      }
     }
   }
 }
@@ -57,8 +54,8 @@ TEST(Surroundings, PriceIsTheSquaredDifferenceOfCounts) {
     n[s.commonest] += s.others;
     return n;
   };
-  for (int u = 0; u <= 255; u += 15) {
-    for (int v = 0; v <= 255; v += 17) {
+  for (int u = 0; u <= 255; u += 15)
+    for (int v = 0; v <= 255; v += 17)
       for (const std::uint8_t a : {std::uint8_t{1}, std::uint8_t{2}}) {
         const Surroundings requested{static_cast<std::uint8_t>(u), a};
         const Surroundings offered{static_cast<std::uint8_t>(v), 2};
@@ -68,8 +65,6 @@ TEST(Surroundings, PriceIsTheSquaredDifferenceOfCounts) {
                  (counts(requested)[k] - counts(offered)[k]);
         ASSERT_EQ(price(requested, offered), sum);
       }
-    }
-  }
   // Classes with dissimilarity 0 count as one.
   const SurroundingsPrice alike(256, std::vector<std::uint8_t>(16, 0), 4);
   EXPECT_EQ(alike({100, 1}, {100, 2}), 0);
@@ -83,24 +78,22 @@ TEST(ClassShares, AreTheSharesOfTheWindow) {
     EXPECT_LT(shares.kinds(), 3000U) << "equal neighbourhoods share a number";
     for (int p = 0; p < 2; ++p) {
       const Plane::Part& part = plane.parts[static_cast<std::size_t>(p)];
-      for (int y = 0; y < part.height; y += 3) {
+      for (int y = 0; y < part.height; y += 3)
         for (int x = 0; x < part.width; x += 5) {
           const std::uint32_t at = plane.index(p, x, y);
           if (class_of(plane.words[at]) == no_class) continue;
           std::array<int, classes> counts{};
-          for (int j = std::max(0, y - radius); j <= std::min(part.height - 1, y + radius); ++j) {
+          for (int j = std::max(0, y - radius); j <= std::min(part.height - 1, y + radius); ++j)
             for (int i = std::max(0, x - radius); i <= std::min(part.width - 1, x + radius); ++i) {
               const std::uint32_t c = class_of(plane.words[plane.index(p, i, j)]);
               if (c != no_class) ++counts[c];
             }
-          }
           const double total = counts[0] + counts[1] + counts[2];
           for (std::size_t c = 0; c < classes; ++c)
             ASSERT_NEAR(shares.of(shares.numbers()[at])[c], 255.0 * counts[c] / total,
                         255.0 / 128.0 + 1.0)
                 << x << ", " << y;
         }
-      }
     }
     ThreadLimit one(1);
     const ClassShares again(plane, radius, classes);
@@ -121,7 +114,7 @@ TEST(ClassShares, OfAPictureWithoutEndAreCoarser) {
   EXPECT_LE(shares.kinds(), 65536U);
   double off = 0.0;
   int counted = 0;
-  for (int y = 0; y < 400; y += 7) {
+  for (int y = 0; y < 400; y += 7)
     for (int x = 3; x < 417; x += 5) {
       std::array<int, many> counts{};
       int total = 0;
@@ -132,7 +125,6 @@ TEST(ClassShares, OfAPictureWithoutEndAreCoarser) {
         off += std::abs(shares.of(shares.numbers()[plane.index(0, x, y)])[c] -
                         255.0 * counts[c] / total);
     }
-  }
   EXPECT_LT(off / counted, 14.0);
 }
 

@@ -17,7 +17,7 @@ GuideStack waves(int width, int height, int guides, bool with_depth) {
   for (int g = 0; g < guides; ++g)
     stack.guides.push_back({"guide " + std::to_string(g), Grid<std::uint8_t>(width, height)});
   if (with_depth) stack.depth_m = Grid<float>(width, height);
-  for (int y = 0; y < height; ++y) {
+  for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       stack.label(x, y) = static_cast<std::uint8_t>((x / 40 + y / 30) % 3);
       for (int g = 0; g < guides; ++g)
@@ -25,7 +25,6 @@ GuideStack waves(int width, int height, int guides, bool with_depth) {
             static_cast<std::uint8_t>(x / (g + 1) + y);
       if (with_depth) stack.depth_m(x, y) = static_cast<float>(1000 + 200 * (y / 50));
     }
-  }
   return stack;
 }
 
@@ -33,10 +32,9 @@ GuideStack waves(int width, int height, int guides, bool with_depth) {
 std::size_t peak_of(int width, int height, int guides, bool with_depth) {
   Exemplar exemplar{
       .name = "noise", .picture = Grid<Rgb8>(96, 96), .guides = waves(96, 96, guides, false)};
-  for (std::size_t i = 0; i < exemplar.picture.size(); ++i) {
+  for (std::size_t i = 0; i < exemplar.picture.size(); ++i)
     exemplar.picture[i] = {
         static_cast<std::uint8_t>(random_bits(1, static_cast<std::int64_t>(i), 0)), 90, 40};
-  }
   const std::vector<Exemplar> exemplars{exemplar};
   const GuideStack target = waves(width, height, guides, with_depth);
   const test::CountedMemory memory;

@@ -136,7 +136,7 @@ Direction stroke_direction(const Grid<Rgb8>& picture, int x, int y) {
   double xx = 0.0;
   double xy = 0.0;
   double yy = 0.0;
-  for (int j = y - 5; j <= y + 5; ++j) {
+  for (int j = y - 5; j <= y + 5; ++j)
     for (int i = x - 5; i <= x + 5; ++i) {
       const double gx = picture.clamped(i + 1, j)[1] - picture.clamped(i - 1, j)[1];
       const double gy = picture.clamped(i, j + 1)[1] - picture.clamped(i, j - 1)[1];
@@ -144,7 +144,6 @@ Direction stroke_direction(const Grid<Rgb8>& picture, int x, int y) {
       xy += gx * gy;
       yy += gy * gy;
     }
-  }
   const double across = 0.5 * std::atan2(2.0 * xy, xx - yy);  // of the strongest change
   const double total = xx + yy;
   return {std::fmod(across + 1.5 * std::numbers::pi, std::numbers::pi),
@@ -169,7 +168,7 @@ TEST(SynthesizeGuides, CopiedStrokesFollowTheFallLine) {
   exemplar.guides.label = Grid<std::uint8_t>(8 * panel, 2 * panel, 3);
   exemplar.guides.guides = {{"fall_line_x", Grid<std::uint8_t>(8 * panel, 2 * panel)},
                             {"fall_line_y", Grid<std::uint8_t>(8 * panel, 2 * panel)}};
-  for (int y = 0; y < 2 * panel; ++y) {
+  for (int y = 0; y < 2 * panel; ++y)
     for (int x = 0; x < 8 * panel; ++x) {
       const double angle = std::numbers::pi / 8.0 * (x / panel + 8 * (y / panel));
       const double along = std::cos(angle) * x + std::sin(angle) * y;
@@ -180,7 +179,6 @@ TEST(SynthesizeGuides, CopiedStrokesFollowTheFallLine) {
                                      static_cast<int>(std::floor(across / 2.0)) + 5000)));
       fill_direction(exemplar.guides, x, y, angle);
     }
-  }
   GuideStack target;
   target.label = Grid<std::uint8_t>(128, 128, 3);
   target.guides = {{"fall_line_x", Grid<std::uint8_t>(128, 128)},

@@ -40,9 +40,8 @@ TEST(Synthesize, SameBitsForAnyThreadsAndVectorWidth) {
   const std::vector<Exemplar> exemplars{painting(140, 120, 1), painting(60, 90, 2)};
   GuideStack target = land(150, 140, 40);
   target.depth_m = Grid<float>(150, 140, 5000.0F);
-  for (int y = 60; y < 100; ++y) {
+  for (int y = 60; y < 100; ++y)
     for (int x = 30; x < 90; ++x) target.depth_m(x, y) = 2000.0F;
-  }
   MatchField reference;
   {
     const ThreadLimit one(1);
@@ -104,12 +103,11 @@ TEST(Synthesize, PatchesOfAnySizeKeepWhatItPromises) {
 // back.
 TEST(Synthesize, OwnGuidesGiveTheExemplarBack) {
   Exemplar exemplar = painting(120, 120, 1);
-  for (int y = 0; y < 120; ++y) {
+  for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 120; ++x) {
       exemplar.guides.guides[0].values(x, y) = static_cast<std::uint8_t>(2 * x);
       exemplar.guides.guides[1].values(x, y) = static_cast<std::uint8_t>(2 * y);
     }
-  }
   SynthesisParameters parameters;
   parameters.copy_cap = 100000;
   const MatchField field = run({exemplar}, exemplar.guides, parameters);
@@ -169,13 +167,12 @@ TEST(Synthesize, NoPieceRunsOnAcrossADepthJump) {
   const MatchField without = run(exemplars, target);
   // A near hill in front of a far plain in front of the sky, and a thin near spire.
   target.depth_m = Grid<float>(120, 120, 5000.0F);
-  for (int y = 0; y < 120; ++y) {
+  for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 120; ++x) {
       if (y < 20) target.depth_m(x, y) = std::numeric_limits<float>::infinity();
       if ((x - 50) * (x - 50) + (y - 90) * (y - 90) < 1600) target.depth_m(x, y) = 2000.0F;
       if (x == 100 && y > 10) target.depth_m(x, y) = 900.0F;
     }
-  }
   const QualityParameters quick{.repeat_samples = 0};
   EXPECT_GT(measure_quality(without, exemplars, target, quick).across_silhouettes, 0.5);
   for (const std::uint64_t seed : {1U, 2U}) {
@@ -236,15 +233,13 @@ TEST(Synthesize, SurroundingsDecideWhatBordersOnWhat) {
   // on 7 only.
   Exemplar exemplar = painting(160, 80, 1);
   exemplar.guides.guides.clear();
-  for (int y = 0; y < 80; ++y) {
+  for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 160; ++x)
       exemplar.guides.label(x, y) = y / 12 % 2 == 0 ? 3 : x < 80 ? 7 : 9;
-  }
   GuideStack target;
   target.label = Grid<std::uint8_t>(80, 80);
-  for (int y = 0; y < 80; ++y) {
+  for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 80; ++x) target.label(x, y) = x / 12 % 2 == 0 ? 3 : 7;
-  }
   const auto from_the_left = [&](double weight, double class_dissimilarity) {
     SynthesisParameters parameters;
     parameters.surroundings = weight;
@@ -322,10 +317,9 @@ TEST(Synthesize, ManyWeakGuidesLeaveTheStrongOneAlone) {
   for (int g = 0; g < 5; ++g) {
     const auto noise = [&](std::uint64_t seed) {
       Grid<std::uint8_t> values(128, 128);
-      for (int y = 0; y < 128; ++y) {
+      for (int y = 0; y < 128; ++y)
         for (int x = 0; x < 128; ++x)
           values(x, y) = smooth_noise(seed + static_cast<std::uint64_t>(g), x, y, 20);
-      }
       return values;
     };
     const std::string name = "noise " + std::to_string(g);
@@ -346,9 +340,8 @@ TEST(Synthesize, ReplaysOntoAnotherLayer) {
   const GuideStack target = land(64, 64, 40);
   const MatchField field = run(exemplars, target);
   Grid<int> layer(80, 80);
-  for (int y = 0; y < 80; ++y) {
+  for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 80; ++x) layer(x, y) = 1000 * y + x;
-  }
   const Grid<int> out = replay<int>(field, {&layer}, Grid<int>());
   for (std::size_t i = 0; i < out.size(); ++i) ASSERT_EQ(out[i], 1000 * field[i].y + field[i].x);
 }

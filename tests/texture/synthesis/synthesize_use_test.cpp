@@ -21,15 +21,12 @@ using namespace test;
 
 TEST(Synthesize, ExcludedTexelsAreNeverUsedAndUnusedPixelsGetNone) {
   Exemplar exemplar = painting(140, 120, 1);
-  for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 140; ++x) {
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 140; ++x)
       if ((x / 9 + y / 7) % 3 == 0) exemplar.guides.label(x, y) = unused_label;
-    }
-  }
   GuideStack target = land(100, 100, 40);
-  for (int y = 0; y < 30; ++y) {
+  for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 100; ++x) target.label(x, y) = unused_label;
-  }
   const MatchField field = run({exemplar}, target);
   for (std::size_t i = 0; i < field.size(); ++i) {
     if (target.label[i] == unused_label) {
@@ -44,14 +41,13 @@ TEST(Synthesize, ExcludedTexelsAreNeverUsedAndUnusedPixelsGetNone) {
 TEST(Synthesize, ClassesWithoutTexelsFallBackOrStayWithout) {
   const std::vector<Exemplar> exemplars{painting(140, 120, 1)};
   GuideStack target = land(80, 80, 40);
-  for (int y = 20; y < 40; ++y) {
+  for (int y = 20; y < 40; ++y)
     for (int x = 0; x < 80; ++x) target.label(x, y) = x < 40 ? 100 : 101;
-  }
   SynthesisParameters parameters;
   parameters.fallback = {{100, 9}};
   SynthesisNotes notes;
   const MatchField field = synthesize(exemplars, target, parameters, notes);
-  for (int y = 0; y < 80; ++y) {
+  for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 80; ++x) {
       const Match m = field(x, y);
       if (target.label(x, y) == 101) {
@@ -62,7 +58,6 @@ TEST(Synthesize, ClassesWithoutTexelsFallBackOrStayWithout) {
                   target.label(x, y) == 100 ? 9 : target.label(x, y));
       }
     }
-  }
   ASSERT_EQ(notes.notes.size(), 2U);
   EXPECT_NE(notes.notes[0].find("class 100"), std::string::npos);
   EXPECT_NE(notes.notes[1].find("class 101"), std::string::npos);
@@ -89,11 +84,10 @@ TEST(Synthesize, SeveralExemplarsShareTheWork) {
   std::vector<Exemplar> split = two;
   for (std::uint8_t& label : split[0].guides.label) label = label == 7 ? unused_label : label;
   const MatchField from_second = run(split, target);
-  for (std::size_t i = 0; i < field.size(); ++i) {
+  for (std::size_t i = 0; i < field.size(); ++i)
     if (target.label[i] == 7) {
       ASSERT_EQ(from_second[i].exemplar, 1);
     }
-  }
 }
 
 // A target with the exemplar's own guides tempts synthesis to copy the whole of it.
@@ -121,9 +115,8 @@ TEST(Synthesize, NoTexelIsUsedTooOften) {
   const std::vector<Exemplar> exemplars{painting(128, 128, 1)};
   GuideStack target = land(128, 128, 40);
   for (std::uint8_t& label : target.label) label = 9;
-  for (int y = 0; y < 64; ++y) {
+  for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 128; ++x) target.guides[0].values(x, y) = 255;
-  }
   const std::size_t texels = static_cast<std::size_t>(
       std::count(exemplars[0].guides.label.begin(), exemplars[0].guides.label.end(), 9));
   const MatchField field = run(exemplars, target);
@@ -179,7 +172,7 @@ TEST(Synthesize, TheCapOnUsesHoldsWhereAltitudeLeavesFewTexels) {
 double autocorrelation(const Grid<Rgb8>& picture, int dx, int dy) {
   double a_sum = 0.0, b_sum = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
   double n = 0.0;
-  for (int y = 0; y + dy < picture.height(); ++y) {
+  for (int y = 0; y + dy < picture.height(); ++y)
     for (int x = std::max(0, -dx); x < picture.width() - std::max(0, dx); ++x) {
       const double a = picture(x, y)[1];
       const double b = picture(x + dx, y + dy)[1];
@@ -190,7 +183,6 @@ double autocorrelation(const Grid<Rgb8>& picture, int dx, int dy) {
       ab += a * b;
       n += 1.0;
     }
-  }
   return (ab - a_sum * b_sum / n) / std::sqrt((aa - a_sum * a_sum / n) * (bb - b_sum * b_sum / n));
 }
 

@@ -35,13 +35,12 @@ inline GuideStack land(int width, int height, std::uint64_t seed) {
   stack.label = Grid<std::uint8_t>(width, height);
   Grid<std::uint8_t> altitude(width, height);
   Grid<std::uint8_t> tone(width, height);
-  for (int y = 0; y < height; ++y) {
+  for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       altitude(x, y) = smooth_noise(seed, x, y, 30);
       tone(x, y) = smooth_noise(seed + 1, x, y, 17);
       stack.label(x, y) = altitude(x, y) < 100 ? 3 : altitude(x, y) < 150 ? 7 : 9;
     }
-  }
   stack.guides = {{"altitude", altitude}, {"tone", tone}};
   return stack;
 }
@@ -58,7 +57,7 @@ inline Exemplar painting(int width, int height, std::uint64_t seed) {
   Exemplar exemplar{.name = "painting " + std::to_string(seed),
                     .picture = Grid<Rgb8>(width, height),
                     .guides = land(width, height, seed)};
-  for (int y = 0; y < height; ++y) {
+  for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int label = exemplar.guides.label(x, y);
       const int streak = streak_of(label, x, y, seed + 2);
@@ -67,7 +66,6 @@ inline Exemplar painting(int width, int height, std::uint64_t seed) {
                                 static_cast<std::uint8_t>(bright + (label == 7 ? 90 : 0)),
                                 static_cast<std::uint8_t>(bright + (label == 3 ? 90 : 0))};
     }
-  }
   return exemplar;
 }
 
@@ -107,9 +105,8 @@ inline double mean_guide_error(const MatchField& field, const std::vector<Exempl
 inline int max_used(const MatchField& field) {
   std::map<std::tuple<int, int, int>, int> uses;
   int max = 0;
-  for (const Match& m : field) {
+  for (const Match& m : field)
     if (m.exemplar != Match::none) max = std::max(max, ++uses[{m.exemplar, m.x, m.y}]);
-  }
   return max;
 }
 

@@ -108,5 +108,4 @@ TEST_F(MissingInputs, AreNamedWithTheirOptionBeforeTheWork) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

@@ -75,13 +75,12 @@ TEST(ManPage, OfTheProgramNamesEveryCommandAndOptionAndIsAscii) {
     const std::size_t from = page.find(heading);
     ASSERT_NE(from, std::string::npos) << command.name;
     const std::string section = page.substr(from, page.find("\n.S", from + heading.size()) - from);
-    for (const OptionDescription& option : command.options) {
+    for (const OptionDescription& option : command.options)
       for (std::string name : option.names) {
         for (std::size_t i = 0; (i = name.find('-', i)) != std::string::npos; i += 2)
           name.insert(i, "\\");
         EXPECT_THAT(section, HasSubstr(name)) << command.name;
       }
-    }
   };
   look(program, look);
 }

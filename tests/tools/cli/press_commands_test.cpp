@@ -108,5 +108,4 @@ TEST_F(Pdf, FaultsHaveTheirStatusAndWord) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

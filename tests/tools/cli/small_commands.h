@@ -17,7 +17,6 @@
 
 // Every command with a line that takes a moment, for tests that hold for all commands.
 namespace belvedere::test {
-
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 

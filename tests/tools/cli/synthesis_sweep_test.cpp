@@ -41,7 +41,7 @@ class SynthesisSweep : public Program {
   }
   // Position of one picture in another, or none (-1).
   static glm::ivec2 find(const Grid<glm::vec3>& sheet, const Grid<glm::vec3>& picture) {
-    for (int y0 = 0; y0 + picture.height() <= sheet.height(); ++y0) {
+    for (int y0 = 0; y0 + picture.height() <= sheet.height(); ++y0)
       for (int x0 = 0; x0 + picture.width() <= sheet.width(); ++x0) {
         bool same = true;
         for (int y = 0; same && y < picture.height(); ++y)
@@ -49,7 +49,6 @@ class SynthesisSweep : public Program {
               std::equal(picture.row(y), picture.row(y) + picture.width(), sheet.row(y0 + y) + x0);
         if (same) return {x0, y0};
       }
-    }
     return {-1, -1};
   }
   std::string style_, label_, target_, style_altitude_, target_altitude_;

@@ -78,5 +78,4 @@ TEST(ElevationOptions, SayWhatASceneSaysOfItsSources) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

@@ -303,5 +303,4 @@ TEST(RunOptions, AreThreadsQuietAndJson) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

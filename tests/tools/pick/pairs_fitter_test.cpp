@@ -245,5 +245,4 @@ TEST_F(PairsSessionTest, ColumnsThatWouldBeLostAreRefused) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

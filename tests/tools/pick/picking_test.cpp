@@ -323,5 +323,4 @@ TEST(PictureTiles, AreThoseOfTheFiles) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

@@ -129,5 +129,4 @@ TEST(ExemplarReportPage, ShowsThePaintingItsClassesAndCharts) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

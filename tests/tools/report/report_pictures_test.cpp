@@ -178,5 +178,4 @@ TEST(EncodedPicture, SeveralAtOnceDoNotMeet) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

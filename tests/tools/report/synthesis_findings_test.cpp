@@ -149,5 +149,4 @@ TEST(SynthesisFigures, ClassesHaveTheirFiguresWithTheirVerdict) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

@@ -481,5 +481,4 @@ TEST(PageAnswers, APageIsLeftOnceItSaysSoAndNothingElseIsAsked) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

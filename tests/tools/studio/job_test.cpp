@@ -111,5 +111,4 @@ TEST(PictureQueue, ANewerRequestEndsTheOneBefore) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

@@ -535,5 +535,4 @@ TEST_F(StudioOfPlaces, OneAtATimeWhichCanBeCancelledAndSaysWhyItFails) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

@@ -412,5 +412,4 @@ TEST(TilePyramid, ThreadsChangeNoByte) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

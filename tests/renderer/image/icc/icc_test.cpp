@@ -46,9 +46,8 @@ TEST(Icc, SrgbProfileHasTheSameBytesEveryTime) {
 TEST(Icc, ToSrgbIsTheIdentity) {
   const Grid<glm::vec3> picture = random_picture(200, 50);
   const Grid<glm::vec3> out = ProfileConversion(srgb_profile()).convert(picture);
-  for (std::size_t i = 0; i < picture.size(); ++i) {
+  for (std::size_t i = 0; i < picture.size(); ++i)
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(out[i][c], picture[i][c], 1.0 / 65535.0);
-  }
 }
 
 TEST(Icc, ConvertsToTheDeviceNumbers) {

@@ -257,5 +257,4 @@ TEST(InkCount, OfNothingIsNothing) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -270,5 +270,4 @@ TEST(LayeredExr, PartsHaveNamesAndHiddenOnesTheirOwnColours) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

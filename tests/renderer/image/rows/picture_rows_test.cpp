@@ -67,5 +67,4 @@ TEST(ReducedOklab, TakesTheMeanOfThePixelsThatItTouches) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -277,5 +277,4 @@ TEST(ForestHues, GulliesAreDarkAndBlueRibsLightAndWarm) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

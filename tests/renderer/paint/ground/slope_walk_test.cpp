@@ -149,5 +149,4 @@ TEST(ScreeFans, PartEqualsWhole) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -266,5 +266,4 @@ TEST(WaterGround, KnowsLakesByTheirPlace) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -253,5 +253,4 @@ TEST(Reflection, PartEqualsWhole) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -362,5 +362,4 @@ TEST(WaterLook, GravelLiesOnBanksHereAndThere) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

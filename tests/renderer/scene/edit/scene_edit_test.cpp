@@ -565,5 +565,4 @@ TEST(SceneValues, OfOneSection) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -210,5 +210,4 @@ TEST(KeepChroma, NeverFallsUnderThreeQuarters) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

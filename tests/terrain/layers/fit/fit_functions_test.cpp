@@ -247,5 +247,4 @@ TEST(Minimize, TakesNoMoreStepsThanAllowed) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

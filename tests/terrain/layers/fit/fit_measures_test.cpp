@@ -109,5 +109,4 @@ TEST(SmoothChroma, KeepsLumaAndLevelsBlocks) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -172,5 +172,4 @@ TEST(JudgeHeldOut, NoiseIsNotLearned) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -111,5 +111,4 @@ TEST(FindClouds, WhiteWithoutShadowsIsNoCloud) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

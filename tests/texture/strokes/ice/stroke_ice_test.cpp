@@ -100,11 +100,10 @@ TEST(Ice, CrevassesLieAcrossTheFlowAndOnlyWhereIceIsTorn) {
   const StrokeParameters parameters;
   const auto torn = grow_strokes("glacier crevasses", {p.guidance, p.ground, parameters});
   EXPECT_GT(torn.size(), 100U);
-  for (const Stroke& s : torn) {
+  for (const Stroke& s : torn)
     if (s.tip == StrokeTip::round) {
       EXPECT_GE(angle_deg(axis_of(s), flow), 50.0);
     }
-  }
   for (float& slope : p.guidance.slope_deg) slope = 3.F;
   EXPECT_TRUE(grow_strokes("glacier crevasses", {p.guidance, p.ground, parameters}).empty());
 }

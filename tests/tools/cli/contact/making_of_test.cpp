@@ -236,5 +236,4 @@ TEST_F(Figure, ShowsGuidesOfThePictureAndOfWhatItCopiesFrom) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

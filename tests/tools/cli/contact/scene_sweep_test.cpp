@@ -99,5 +99,4 @@ TEST(PictureTable, CaptionsBreakAtThePicturesWidth) {
 }
 
 }  // namespace
-
 }  // namespace belvedere::tools

@@ -299,5 +299,4 @@ TEST_F(SegmentPage, ClicksAndKeysMergeSplitNameAndUndo) {
 }
 
 }  // namespace
-
 }  // namespace belvedere

@@ -121,13 +121,12 @@ TEST_F(TexturePictures, ClearPixelsAreNotPaint) {
   std::string red = read_bytes(clear);
   const Grid<Rgb8> crop = test::meadow_crop(100, 64);
   std::string rows;
-  for (const auto [x, y] : test::cells(100, 64)) {
+  for (const auto [x, y] : test::cells(100, 64))
     if (x < 20)
       rows += std::string("\xff\0\0\0", 4);
     else
       rows += {static_cast<char>(crop(x, y)[0]), static_cast<char>(crop(x, y)[1]),
                static_cast<char>(crop(x, y)[2]), '\xff'};
-  }
   const std::string other = write("red.png", test::make_png(100, 64, 8, 6, rows));
   const auto fill = [&](const std::string& scan, const std::string& out) {
     const Outcome filled = run(
