@@ -18,10 +18,7 @@ namespace {
 using test::largest_difference;
 
 Grid<float> noise_grid(int width, int height, std::uint64_t seed) {
-  Grid<float> grid(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    grid(x, y) = static_cast<float>(random_uniform(seed, x, y));
-  return grid;
+  return test::grid_of(width, height, [&](int x, int y) { return random_uniform(seed, x, y); });
 }
 
 // The definition of gaussian_blur, in double, without optimizations.

@@ -19,9 +19,8 @@ double valley_m(double east) {
 }
 
 MistGround valley_ground(bool floors = true) {
-  Grid<float> altitude(300, 300);
-  for (const auto [x, y] : test::cells(300, 300))
-    altitude(x, y) = static_cast<float>(valley_m((x + 0.5) * cell));
+  const Grid<float> altitude =
+      test::grid_of(300, 300, [&](int x, int) { return valley_m((x + 0.5) * cell); });
   const Grid<float> rim(300, 300, 1e6F);
   return make_mist_ground(altitude, rim, {0.0, 18000.0, cell, cell}, floors);
 }

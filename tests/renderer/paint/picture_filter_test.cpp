@@ -125,9 +125,8 @@ TEST(PictureFilter, PartWithItsReachEqualsWhole) {
   for (const double sigma : {1.5, 12.0, 17.0, 30.0}) {
     const int reach = blur_reach_px(sigma);
     const int size = 2 * reach + 120;
-    Grid<float> whole(size, size);
-    for (const auto [x, y] : test::cells(size, size))
-      whole(x, y) = static_cast<float>(gaussian_noise(2, x, y, 5.0));
+    const Grid<float> whole =
+        test::grid_of(size, size, [&](int x, int y) { return gaussian_noise(2, x, y, 5.0); });
     const PixelRect part{reach + 37, reach + 51, reach + 70, reach + 80};
     const PixelRect wide = test::with_margin(part, reach, size, size);
     const Grid<float> cut = blur_in_picture(test::cut(whole, wide), sigma, {wide.x0, wide.y0});

@@ -20,11 +20,10 @@ namespace {
 
 // Greys that every press has, and a quarter of greens that none has.
 Grid<glm::vec3> greys_and_greens() {
-  Grid<glm::vec3> out(80, 150);
-  for (const auto [x, y] : test::cells(80, 150))
-    out(x, y) = x < 20 ? glm::vec3(0.0F, 1.0F, 0.003F * static_cast<float>(y))
-                       : glm::vec3(0.3F + 0.004F * static_cast<float>(y));
-  return out;
+  return test::grid_of<glm::vec3>(80, 150, [&](int x, int y) {
+    return x < 20 ? glm::vec3(0.0F, 1.0F, 0.003F * static_cast<float>(y))
+                  : glm::vec3(0.3F + 0.004F * static_cast<float>(y));
+  });
 }
 
 class Proof : public testing::Test {

@@ -409,9 +409,8 @@ TEST(Silhouettes, AGrazingPlaneHasNone) {
 
 TEST(Silhouettes, ATiltedWallHasNone) {
   // A wall seen almost edge-on, its inverse depth linear along x and y.
-  Grid<float> depth(100, 30);
-  for (const auto [x, y] : test::cells(100, 30))
-    depth(x, y) = static_cast<float>(1.0 / (1e-5 + 2e-6 * x + 1e-6 * y));
+  const Grid<float> depth =
+      test::grid_of(100, 30, [&](int x, int y) { return 1.0 / (1e-5 + 2e-6 * x + 1e-6 * y); });
   const Grid<float> found = find_silhouettes(depth);
   EXPECT_LT(*std::max_element(found.begin(), found.end()), 0.01F);
 }
@@ -484,9 +483,8 @@ TEST(Silhouettes, TheEdgeOfAPlateauIsNone) {
 }
 
 TEST(Silhouettes, SameBitsForAnyThreadCount) {
-  Grid<float> depth(150, 120);
-  for (const auto [x, y] : test::cells(150, 120))
-    depth(x, y) = static_cast<float>(1000.0 + 200.0 * random_uniform(3, x, y));
+  const Grid<float> depth = test::grid_of(
+      150, 120, [&](int x, int y) { return 1000.0 + 200.0 * random_uniform(3, x, y); });
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     return find_silhouettes(depth);

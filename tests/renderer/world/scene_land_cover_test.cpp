@@ -165,10 +165,9 @@ TEST(LayeredLandCover, BumpsAndBedsComeWithTheLayersColours) {
                "1020\"\nroughness = { height_m = 3, length_m = 40 }\n"
                "[[layers]]\nname = \"lake\"\nclass = \"water\"\ncolour = \"#0000ff\"\nwhen = "
                "\"lake > 0.5\"\n");
-  Grid<float> altitude(80, 80);
-  for (const auto [x, y] : test::cells(80, 80))
-    altitude(x, y) =
-        static_cast<float>(900.0 + 4.0 * std::max(0.0, std::hypot(x - 40.0, y - 40.0) - 15.0));
+  const Grid<float> altitude = test::grid_of(80, 80, [&](int x, int y) {
+    return 900.0 + 4.0 * std::max(0.0, std::hypot(x - 40.0, y - 40.0) - 15.0);
+  });
   const Dem dem =
       make_dem({altitude, {500000.0, 5200000.0, 50.0, 50.0}, normalize_crs("EPSG:32632")});
   const Cache cache({.folder = folder / "cache", .limit_bytes = 0});

@@ -27,10 +27,8 @@ float ridge_height(double north) {
 }
 
 Grid<float> ridges() {
-  Grid<float> z(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    z(x, y) = ridge_height(northern_frame.to_crs(x, y).y);
-  return z;
+  return test::grid_of(width, height,
+                       [&](int x, int y) { return ridge_height(northern_frame.to_crs(x, y).y); });
 }
 
 std::vector<SightLine> northward(int count) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "base/math.h"
@@ -16,10 +18,9 @@ namespace {
 const GeoTransform innsbruck{680000.0, 5260000.0, 30.0, 30.0};
 
 Grid<float> hills() {
-  Grid<float> grid(40, 30);
-  for (const auto [x, y] : test::cells(40, 30))
-    grid(x, y) = 1500.F + 37.123F * static_cast<float>((x * 7 + y * 13) % 11);
-  return grid;
+  return test::grid_of(40, 30, [&](int x, int y) {
+    return 1500.F + 37.123F * static_cast<float>((x * 7 + y * 13) % 11);
+  });
 }
 
 DeformParameters panorama() {
@@ -83,34 +84,6 @@ TEST(Deform, BendIsSmoothWhereTheFarTermBegins) {
   EXPECT_NEAR(bend_drop_m(p, 78001.0), 6e-6, 1e-12);
 }
 
-TEST(Deform, VertexEqualsDeformPoint) {
-  const Grid<float> altitude = hills();
-  const glm::dvec2 viewer(691234.5, 5302017.25);
-  const glm::dvec3 origin(viewer, 0.0);
-  const DeformParameters p = panorama();
-  const DeformedSurface surface = deform(altitude, innsbruck, viewer, origin, p);
-  for (const auto [x, y] : test::cells(40, 30)) {
-    const glm::dvec3 point = deform_point({innsbruck.to_crs(x, y), altitude(x, y)}, viewer, p);
-    ASSERT_EQ(surface.vertices_m(x, y), glm::vec3(point - origin)) << x << ' ' << y;
-  }
-}
-
-TEST(Deform, UtmCoordinatesKeepCentimetres) {
-  // 42 km from the origin and 5,260 km from the equator, a vertex must still lie within half a
-  // centimetre.
-  const Grid<float> altitude = hills();
-  const glm::dvec2 viewer(691234.56, 5302017.89);
-  const DeformParameters p = panorama();
-  const DeformedSurface surface = deform(altitude, innsbruck, viewer, glm::dvec3(viewer, 0.0), p);
-  for (const auto [x, y] : test::cells(40, 30)) {
-    const glm::dvec3 exact = deform_point({innsbruck.to_crs(x, y), altitude(x, y)}, viewer, p);
-    const glm::dvec3 stored = glm::dvec3(surface.vertices_m(x, y)) + surface.origin;
-    ASSERT_LT(std::abs(stored.x - exact.x), 0.005);
-    ASSERT_LT(std::abs(stored.y - exact.y), 0.005);
-    ASSERT_LT(std::abs(stored.z - exact.z), 0.005);
-  }
-}
-
 // All effects at once, to compare points with vertices, and numbers of threads.
 DeformParameters rearranged() {
   DeformParameters p = panorama();
@@ -128,20 +101,27 @@ DeformParameters rearranged() {
   return p;
 }
 
-TEST(Deform, VertexEqualsDeformPointWithEverythingAsked) {
+// Also 42 km from the origin and 5,260 km from the equator, where a vertex must still lie within
+// half a centimetre.
+TEST(Deform, VertexEqualsDeformPoint) {
   const Grid<float> altitude = hills();
-  const glm::dvec2 viewer(691234.5, 5302017.25);
-  const DeformParameters p = rearranged();
-  const DeformedSurface surface = deform(altitude, innsbruck, viewer, glm::dvec3(viewer, 0.0), p);
-  int moved = 0;
-  for (const auto [x, y] : test::cells(40, 30)) {
-    const glm::dvec3 from(innsbruck.to_crs(x, y), altitude(x, y));
-    const glm::dvec3 point = deform_point(from, viewer, p);
-    ASSERT_EQ(surface.vertices_m(x, y), glm::vec3(point - surface.origin)) << x << ' ' << y;
-    moved += point.x != from.x ? 1 : 0;
+  const glm::dvec2 viewer(691234.56, 5302017.89);
+  for (const bool everything : {false, true}) {
+    const DeformParameters p = everything ? rearranged() : panorama();
+    const DeformedSurface surface = deform(altitude, innsbruck, viewer, glm::dvec3(viewer, 0.0), p);
+    int moved = 0;
+    for (const auto [x, y] : test::cells(40, 30)) {
+      const glm::dvec3 from(innsbruck.to_crs(x, y), altitude(x, y));
+      const glm::dvec3 exact = deform_point(from, viewer, p);
+      const glm::vec3 vertex = surface.vertices_m(x, y);
+      ASSERT_EQ(vertex, glm::vec3(exact - surface.origin)) << x << ' ' << y;
+      const glm::dvec3 off = glm::abs(glm::dvec3(vertex) + surface.origin - exact);
+      ASSERT_LT(std::max({off.x, off.y, off.z}), 0.005);
+      moved += exact.x != from.x ? 1 : 0;
+    }
+    EXPECT_GE(moved, everything ? 101 : 0);
+    EXPECT_LT(moved, everything ? 1000 : 1);
   }
-  EXPECT_GT(moved, 100);
-  EXPECT_LT(moved, 1000);
 }
 
 TEST(Deform, ExaggerationIsExactAtBothEndsAndSmoothBetween) {
@@ -258,26 +238,16 @@ TEST(Deform, LightSeesTheRearrangedShapeWithoutTheBend) {
     EXPECT_LT(glm::length(shape[column] - expected[column]), 1e-8);
 }
 
-TEST(Deform, SameBitsForAnyThreadCountWithEverythingAsked) {
-  const Grid<float> altitude = hills();
-  const auto run = [&](int threads) {
-    const ThreadLimit limit(threads);
-    return deform(altitude, innsbruck, {691000.0, 5302000.0}, {691000.0, 5302000.0, 0.0},
-                  rearranged())
-        .vertices_m;
-  };
-  EXPECT_EQ(run(1), run(2));
-}
-
 TEST(Deform, SameBitsForAnyThreadCount) {
-  const Grid<float> altitude = hills();
-  const auto run = [&](int threads) {
-    const ThreadLimit limit(threads);
-    return deform(altitude, innsbruck, {691000.0, 5302000.0}, {691000.0, 5302000.0, 0.0},
-                  panorama())
-        .vertices_m;
-  };
-  EXPECT_EQ(run(1), run(2));
+  for (const DeformParameters& p : {panorama(), rearranged()}) {
+    const auto vertices = [&] {
+      return deform(hills(), innsbruck, {691000.0, 5302000.0}, {691000.0, 5302000.0, 0.0}, p)
+          .vertices_m;
+    };
+    const auto many = vertices();
+    const ThreadLimit one(1);
+    EXPECT_EQ(vertices(), many);
+  }
 }
 
 void expect_round_trip(const DeformParameters& parameters, double tolerance_m) {
@@ -336,41 +306,28 @@ Deformation with(std::vector<DeformHandle> handles) {
   return {parameters, {10000.0, -20000.0}};
 }
 
+std::size_t folds_of(glm::dvec2 move_m, double rotate_deg, double radius_m) {
+  return find_folds(flat, frame,
+                    with({{.centre = {10000.0, 10000.0},
+                           .move_m = move_m,
+                           .rotate_deg = rotate_deg,
+                           .radius_m = radius_m,
+                           .core_m = 3000.0}}))
+      .size();
+}
+
 TEST(Fold, NoneWithoutHandlesAndNoneWhereATurnIsWideEnough) {
   EXPECT_TRUE(find_folds(flat, frame, with({})).empty());
-  EXPECT_TRUE(find_folds(flat, frame,
-                         with({{.centre = {10000.0, 10000.0},
-                                .rotate_deg = 50.0,
-                                .radius_m = 8000.0,
-                                .core_m = 3000.0}}))
-                  .empty());
-  EXPECT_TRUE(find_folds(flat, frame,
-                         with({{.centre = {10000.0, 10000.0},
-                                .rotate_deg = 90.0,
-                                .radius_m = 9000.0,
-                                .core_m = 3000.0}}))
-                  .empty());
+  EXPECT_EQ(folds_of({}, 50.0, 8000.0), 0U);
+  EXPECT_EQ(folds_of({}, 90.0, 9000.0), 0U);
 }
 
 TEST(Fold, ATurnFoldsNothingAndAMoveFromItsLimitOn) {
   // A twist preserves areas (until it exceeds the facets). A move folds where the share falls
   // faster than 1 / its length: steepest 15/8 over the ring.
-  EXPECT_TRUE(find_folds(flat, frame,
-                         with({{.centre = {10000.0, 10000.0},
-                                .rotate_deg = 110.0,
-                                .radius_m = 8000.0,
-                                .core_m = 3000.0}}))
-                  .empty());
-  const auto folds = [&](double move) {
-    return find_folds(flat, frame,
-                      with({{.centre = {10000.0, 10000.0},
-                             .move_m = {move, 0.0},
-                             .radius_m = 7000.0,
-                             .core_m = 3000.0}}))
-        .size();
-  };
-  EXPECT_EQ(folds(0.97 * 4000.0 * 8.0 / 15.0), 0U);
-  EXPECT_GT(folds(1.03 * 4000.0 * 8.0 / 15.0), 0U);
+  EXPECT_EQ(folds_of({}, 110.0, 8000.0), 0U);
+  EXPECT_EQ(folds_of({0.97 * 4000.0 * 8.0 / 15.0, 0.0}, 0.0, 7000.0), 0U);
+  EXPECT_GT(folds_of({1.03 * 4000.0 * 8.0 / 15.0, 0.0}, 0.0, 7000.0), 0U);
 }
 
 TEST(Fold, IsFoundWhereAMovedCoreRunsOverTheGroundBeforeIt) {

@@ -131,10 +131,9 @@ TEST(GeneralizeCurvature, ZerosOfAMaskKeepTheirBits) {
 TEST(GeneralizeCurvature, HalfMaskLeavesNoSeam) {
   // A crest along the mask's edge: there the change is large, and constant across the edge except
   // for a seam.
-  Grid<float> terrain(256, 256);
-  for (const auto [x, y] : test::cells(256, 256))
-    terrain(x, y) =
-        static_cast<float>(1500.0 + 200.0 * std::cos((x - 127.5) / 64.0 * 6.2831853) + 2.0 * y);
+  const Grid<float> terrain = test::grid_of(256, 256, [&](int x, int y) {
+    return 1500.0 + 200.0 * std::cos((x - 127.5) / 64.0 * 6.2831853) + 2.0 * y;
+  });
   const GeneralizeParameters p = everywhere({1.8F, 2.F, 1.5F, 1.F, 1.F});
   Grid<float> half(256, 256);
   for (int y = 0; y < 256; ++y) std::fill_n(half.row(y), 128, 1.F);
@@ -203,10 +202,9 @@ TEST(GeneralizeCurvature, BlurTakesSpikesOffBreakLines) {
 
 TEST(GeneralizeCurvature, RidgesStaySharperThanUnderABlurOfEqualEnergy) {
   // A tilted roof: only its ridge is a break line.
-  Grid<float> roof(129, 129);
-  for (const auto [x, y] : test::cells(129, 129))
-    roof(x, y) = static_cast<float>(2000.0 - 18.0 * std::abs(x - 64) + 4.0 * y +
-                                    15.0 * random_uniform(3, x, y));
+  const Grid<float> roof = test::grid_of(129, 129, [&](int x, int y) {
+    return 2000.0 - 18.0 * std::abs(x - 64) + 4.0 * y + 15.0 * random_uniform(3, x, y);
+  });
   const Grid<float> out = run(roof, everywhere({1.F, .3F, 0.F, 0.F}, {0.F, .7F, 1.F, 1.F}));
   const auto rough = [](const Grid<float>& g) {  // energy of the detail on the slope
     double sum = 0.0;

@@ -21,11 +21,10 @@ TEST(PlanCurvature, IsTheNegativeOfGrassPlanc) {
   // r.param.scale fits the same quadric to 3 × 3 cells; its planc counts hollows as positive.
   if (std::system("test -x /usr/bin/grass") != 0)
     GTEST_SKIP() << "needs GRASS GIS (Debian: grass-core)";
-  Grid<float> hills(size, size);
-  for (const auto [x, y] : test::cells(size, size))
-    hills(x, y) =
-        static_cast<float>(12.0 * x - 7.0 * y + 90.0 * std::sin(x / 7.0) * std::cos(y / 9.0) +
-                           40.0 * std::sin((x + 2 * y) / 11.0));
+  Grid<float> hills = test::grid_of(size, size, [&](int x, int y) {
+    return 12.0 * x - 7.0 * y + 90.0 * std::sin(x / 7.0) * std::cos(y / 9.0) +
+           40.0 * std::sin((x + 2 * y) / 11.0);
+  });
   const test::Folder folder;
   folder.write("z.bin",
                {reinterpret_cast<const char*>(hills.data()), hills.size() * sizeof(float)});

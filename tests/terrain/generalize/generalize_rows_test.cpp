@@ -20,10 +20,9 @@ constexpr double rows_cell_m = 20.0;
 // f(x, y) in metres, x east and y north of the grid's centre.
 template <class F>
 Grid<float> surface(int size, F&& f) {
-  Grid<float> grid(size, size);
-  for (const auto [x, y] : test::cells(size, size))
-    grid(x, y) = static_cast<float>(f((x - size / 2) * rows_cell_m, (size / 2 - y) * rows_cell_m));
-  return grid;
+  return test::grid_of(size, size, [&](int x, int y) {
+    return f((x - size / 2) * rows_cell_m, (size / 2 - y) * rows_cell_m);
+  });
 }
 
 Grid<float> plan_curvature(const Grid<float>& altitude_m) {

@@ -102,9 +102,8 @@ TEST(Generalize, ForegroundShareMixesTheWeights) {
 
 TEST(Generalize, ShareThatChangesAlongTheViewLeavesNoSeam) {
   const Grid<float> terrain = alpine(200, 200);
-  Grid<float> share(200, 200);
-  for (const auto [x, y] : test::cells(200, 200))
-    share(x, y) = std::clamp((y - 60.F) / 80.F, 0.F, 1.F);
+  const Grid<float> share =
+      test::grid_of(200, 200, [&](int, int y) { return std::clamp((y - 60.F) / 80.F, 0.F, 1.F); });
   const GeneralizeParameters parameters{{1, 1, 1, 1, 1}, {1.5F, 1.F, .5F, .2F, 0.F}, 0.F};
   const Grid<float> out = generalized(terrain, parameters, share);
   const Grid<float> far = equation_two(terrain, parameters.background);
@@ -192,10 +191,9 @@ TEST(Generalize, LakesAreNotLeftOnATable) {
 TEST(Generalize, CrestsRiseWhereTheyAreHighOnly) {
   // A roof-shaped crest 10 cells across on ground of a given altitude.
   const auto roof = [](float ground) {
-    Grid<float> grid(96, 96);
-    for (const auto [x, y] : test::cells(96, 96))
-      grid(x, y) = ground + std::max(0.F, 200.F - 20.F * static_cast<float>(std::abs(x - 48)));
-    return grid;
+    return test::grid_of(96, 96, [&](int x, int) {
+      return ground + std::max(0.F, 200.F - 20.F * static_cast<float>(std::abs(x - 48)));
+    });
   };
   GeneralizeParameters parameters;
   parameters.crest = .9F;

@@ -166,9 +166,8 @@ TEST(ApplyMask, KeepsTheBitsOfZeroAndBlendsBetween) {
 }
 
 TEST(SoftenMask, LeavesZeroWhereItWas) {
-  Grid<float> hard(60, 40);
-  for (const auto [x, y] : test::cells(60, 40))
-    hard(x, y) = x < 30 && !(x == 12 && y == 20) ? 1.F : 0.F;
+  const Grid<float> hard = test::grid_of(
+      60, 40, [&](int x, int y) { return x < 30 && !(x == 12 && y == 20) ? 1.F : 0.F; });
   const Grid<float> soft = soften_mask(hard);
   for (std::size_t i = 0; i < hard.size(); ++i) {
     if (hard[i] == 0.F) {

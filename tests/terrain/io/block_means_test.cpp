@@ -13,11 +13,9 @@ namespace belvedere {
 namespace {
 
 Grid<float> wavy_ground(int width, int height) {
-  Grid<float> grid(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    grid(x, y) = static_cast<float>(900.0 + 37.3 * std::sin(0.7 * x) * std::cos(0.45 * y) +
-                                    0.1 * (x * 7 + y));
-  return grid;
+  return test::grid_of(width, height, [&](int x, int y) {
+    return 900.0 + 37.3 * std::sin(0.7 * x) * std::cos(0.45 * y) + 0.1 * (x * 7 + y);
+  });
 }
 
 Grid<float> in_strips(const Grid<float>& grid, int rows, int blocks) {

@@ -14,10 +14,9 @@ namespace {
 const GeoTransform frame{680000.0, 5260000.0, 30.0, 30.0};
 
 Grid<float> rough(int width, int height) {
-  Grid<float> z(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    z(x, y) = 1000.F + 10.F * static_cast<float>((x * 7 + y * 13) % 11);
-  return z;
+  return test::grid_of(width, height, [&](int x, int y) {
+    return 1000.F + 10.F * static_cast<float>((x * 7 + y * 13) % 11);
+  });
 }
 
 TEST(SurfaceRaster, WhatStaysInPlanKeepsItsPosts) {

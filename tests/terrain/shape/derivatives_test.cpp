@@ -28,11 +28,9 @@ constexpr double surface_cell_m = 20.0;
 // f(x, y) in metres, x east and y north of the grid's centre.
 template <class F>
 Grid<float> surface(int size, F&& f) {
-  Grid<float> grid(size, size);
-  for (const auto [x, y] : test::cells(size, size))
-    grid(x, y) =
-        static_cast<float>(f((x - size / 2) * surface_cell_m, (size / 2 - y) * surface_cell_m));
-  return grid;
+  return test::grid_of(size, size, [&](int x, int y) {
+    return f((x - size / 2) * surface_cell_m, (size / 2 - y) * surface_cell_m);
+  });
 }
 
 TEST(Slope, OfTiltedPlanes) {
@@ -162,10 +160,9 @@ TEST(Slope, WithinBoundsIsTheSlope) {
 }
 
 Grid<float> rough(int width, int height) {
-  Grid<float> grid(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    grid(x, y) = 800.F + 900.F * synthetic::ridged_noise(2, x / 40.0, y / 40.0, 5);
-  return grid;
+  return test::grid_of(width, height, [&](int x, int y) {
+    return 800.F + 900.F * synthetic::ridged_noise(2, x / 40.0, y / 40.0, 5);
+  });
 }
 
 TEST(Hillshade, LevelGroundAndSlopesInClosedForm) {

@@ -17,11 +17,10 @@ namespace {
 // surfaces.
 Grid<glm::vec3> random_surface(int width, int height, float cell_m, float relief_m,
                                std::uint64_t seed) {
-  Grid<glm::vec3> vertices(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    vertices(x, y) = {static_cast<float>(x) * cell_m, static_cast<float>(height - 1 - y) * cell_m,
-                      relief_m * static_cast<float>(random_uniform(seed, x, y))};
-  return vertices;
+  return test::grid_of<glm::vec3>(width, height, [&](int x, int y) {
+    return glm::vec3(static_cast<float>(x) * cell_m, static_cast<float>(height - 1 - y) * cell_m,
+                     relief_m * static_cast<float>(random_uniform(seed, x, y)));
+  });
 }
 
 // Möller & Trumbore 1997, against every facet: a different formula from the one under test.

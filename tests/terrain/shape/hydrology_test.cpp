@@ -25,10 +25,8 @@ namespace belvedere {
 namespace {
 
 Grid<float> rough(int width, int height, std::uint64_t seed) {
-  Grid<float> grid(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    grid(x, y) = static_cast<float>(1000.0 + 50.0 * random_uniform(seed, x, y));
-  return grid;
+  return test::grid_of(width, height,
+                       [&](int x, int y) { return 1000.0 + 50.0 * random_uniform(seed, x, y); });
 }
 
 // The simplest flood: one heap for all cells except those of hollows, which are taken in the order

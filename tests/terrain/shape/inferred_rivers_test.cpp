@@ -26,11 +26,9 @@ Grid<float> waters(double from_km2, double step_km2, bool brook = false) {
 }
 // Steep to both sides of the river.
 Grid<float> valley() {
-  Grid<float> out(121, rows);
-  for (const auto [x, y] : test::cells(121, rows))
-    out(x, y) =
-        1000.F + 20.F * static_cast<float>(std::abs(x - river_column)) - static_cast<float>(y);
-  return out;
+  return test::grid_of(121, rows, [&](int x, int y) {
+    return 1000.F + 20.F * static_cast<float>(std::abs(x - river_column)) - static_cast<float>(y);
+  });
 }
 RiverBed everywhere(int, int) { return RiverBed::runs; }
 double row_of(glm::dvec2 position) { return valley_transform.to_cell(position.x, position.y).y; }
@@ -152,11 +150,9 @@ RiverLine river(bool turns, double half_width_m) {
 
 // Level for that many cells to both sides of the central column, then steep.
 Grid<float> floor_of(int cells) {
-  Grid<float> out(bends_size, bends_size);
-  for (const auto [x, y] : test::cells(bends_size, bends_size))
-    out(x, y) =
-        500.F + 15.F * static_cast<float>(std::max(0, std::abs(x - bends_size / 2) - cells));
-  return out;
+  return test::grid_of(bends_size, bends_size, [&](int x, int) {
+    return 500.F + 15.F * static_cast<float>(std::max(0, std::abs(x - bends_size / 2) - cells));
+  });
 }
 
 double length_of(const RiverLine& line) {

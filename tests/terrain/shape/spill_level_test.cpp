@@ -40,11 +40,9 @@ Grid<float> flooded(Grid<float> z, const std::vector<std::int32_t>& outlets) {
 }
 
 Grid<float> rough(int width, int height, int metres, std::uint64_t seed) {
-  Grid<float> z(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    z(x, y) =
-        static_cast<float>(static_cast<int>(random_uniform(seed, x, y) * metres) - metres / 3);
-  return z;
+  return test::grid_of(width, height, [&](int x, int y) {
+    return static_cast<int>(random_uniform(seed, x, y) * metres) - metres / 3;
+  });
 }
 
 TEST(SpillLevel, IsTheRimsLowestPlace) {

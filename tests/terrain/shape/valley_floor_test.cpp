@@ -19,10 +19,9 @@ constexpr int centre = 60;
 // A valley that runs south: a level floor 2 km wide at 500 m, flanks that rise 1 in 2 to 1000 m,
 // level ground beyond.
 Grid<float> trough() {
-  Grid<float> ground(121, 60);
-  for (const auto [x, y] : test::cells(ground))
-    ground(x, y) = 500.F + 25.F * static_cast<float>(std::clamp(std::abs(x - centre) - 20, 0, 20));
-  return ground;
+  return test::grid_of(121, 60, [&](int x, int) {
+    return 500.F + 25.F * static_cast<float>(std::clamp(std::abs(x - centre) - 20, 0, 20));
+  });
 }
 
 int count(const Grid<std::uint8_t>& marks) {
@@ -86,9 +85,8 @@ Dem whole_plane() {
 TEST(Surroundings, LieAroundTheWindowAsFarAsAskedAndAsThereIs) {
   const Dem whole = whole_plane();
   const GeoTransform transform{50000.0 + 20 * 90.0, 90000.0 - 2 * 90.0, 30.0, 30.0};
-  Grid<float> own(60, 45);
-  for (const auto [x, y] : test::cells(60, 45))
-    own(x, y) = static_cast<float>(1000.0 + plane(transform.to_crs(x, y)));
+  const Grid<float> own =
+      test::grid_of(60, 45, [&](int x, int y) { return 1000.0 + plane(transform.to_crs(x, y)); });
   const Surrounded all = surround(own, transform, whole, 600.0);
   EXPECT_EQ(all.left, 20);
   EXPECT_EQ(all.top, 6) << "the whole ends there";

@@ -167,10 +167,9 @@ TEST(RidgedNoise, KeepsItsRangeAtAnySize) {
 }
 
 Grid<float> random_ground(int width, int height, std::uint64_t seed) {
-  Grid<float> z(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    z(x, y) = 100.F * static_cast<float>(random_uniform(seed, x, y));
-  return z;
+  return test::grid_of(width, height, [&](int x, int y) {
+    return 100.F * static_cast<float>(random_uniform(seed, x, y));
+  });
 }
 
 TEST(Drainage, CarriesAllWaterToTheOutletAndReceiversComeFirst) {

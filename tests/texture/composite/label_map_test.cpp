@@ -12,10 +12,7 @@ namespace {
 
 template <class F>
 Grid<std::uint8_t> map_of(int width, int height, F&& label) {
-  Grid<std::uint8_t> map(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    map(x, y) = static_cast<std::uint8_t>(label(x, y));
-  return map;
+  return test::grid_of<std::uint8_t>(width, height, [&](int x, int y) { return label(x, y); });
 }
 
 TEST(LabelMap, ACheckerboardHasKnownTables) {

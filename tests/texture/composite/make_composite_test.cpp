@@ -23,10 +23,9 @@ using test::two_textures_model;
 const TextureParameters quick_make{.rounds = 8, .sweeps = 3};
 
 Grid<std::uint8_t> drawn(int width, int height) {
-  Grid<std::uint8_t> labels(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    labels(x, y) = (x - 50) * (x - 50) + (y - 40) * (y - 40) < 900 ? 1 : 0;
-  return labels;
+  return test::grid_of<std::uint8_t>(width, height, [&](int x, int y) {
+    return (x - 50) * (x - 50) + (y - 40) * (y - 40) < 900 ? 1 : 0;
+  });
 }
 
 TEST(MakeComposite, EveryLabelHasItsOwnTexture) {

@@ -22,10 +22,7 @@ Grid<std::uint8_t> patches(int side, std::uint64_t seed) {
 }
 
 Grid<std::uint8_t> stripes(int width, int height) {
-  Grid<std::uint8_t> map(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    map(x, y) = static_cast<std::uint8_t>(3 * y / height);
-  return map;
+  return test::grid_of<std::uint8_t>(width, height, [&](int, int y) { return 3 * y / height; });
 }
 
 double share_in_rows(const Grid<std::uint8_t>& map, int y0, int y1, int label) {

@@ -24,10 +24,9 @@ Rgb8 grey(int value) {
 
 // Horizontal dashes of `length` pixels, each with its own brightness.
 Grid<Rgb8> dashes(int width, int height, int length, std::uint64_t seed) {
-  Grid<Rgb8> picture(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    picture(x, y) = grey(40 + static_cast<int>(random_index(160, seed, (x + 7 * y) / length, y)));
-  return picture;
+  return test::grid_of<Rgb8>(width, height, [&](int x, int y) {
+    return grey(40 + static_cast<int>(random_index(160, seed, (x + 7 * y) / length, y)));
+  });
 }
 
 Exemplar exemplar_of(const Grid<Rgb8>& picture) {
@@ -265,9 +264,8 @@ TEST(Quality, FloorIsWhatOtherDistancesFromBordersMakeByThemselves) {
 }
 
 TEST(Quality, BorderDistanceEqualsASearch) {
-  Grid<std::uint8_t> labels(60, 50);
-  for (const auto [x, y] : test::cells(60, 50))
-    labels(x, y) = static_cast<std::uint8_t>(random_index(2, 4, x / 23, y / 17));
+  const Grid<std::uint8_t> labels = test::grid_of<std::uint8_t>(
+      60, 50, [&](int x, int y) { return random_index(2, 4, x / 23, y / 17); });
   const Grid<std::uint8_t> fast = border_distance_squared(labels);
   for (const auto [x, y] : test::cells(60, 50)) {
     int min = 255;

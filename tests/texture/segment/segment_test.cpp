@@ -90,9 +90,8 @@ TEST(Segment, ReducesToAboutTwoHundredThousandPixels) {
 TEST(Segment, EnlargedBordersFollowThePicture) {
   constexpr int side = 99;
   const auto dark = [](int x, int y) { return 2 * x + y < 150; };
-  Grid<glm::vec3> picture(side, side);
-  for (const auto [x, y] : test::cells(side, side))
-    picture(x, y) = glm::vec3(dark(x, y) ? .2F : .8F);
+  const Grid<glm::vec3> picture = test::grid_of<glm::vec3>(
+      side, side, [&](int x, int y) { return glm::vec3(dark(x, y) ? .2F : .8F); });
   const Grid<glm::vec3> reduced = reduce_blocks(picture, 3);
   Grid<std::uint16_t> of(reduced.width(), reduced.height());
   for (std::size_t i = 0; i < of.size(); ++i) of[i] = reduced[i].x < .5F ? 7 : 4;

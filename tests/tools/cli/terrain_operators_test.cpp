@@ -21,11 +21,9 @@ TerrainOperators read_operators(const std::string& line) {
 
 // A cone with stripes of ±1 m along rows.
 Grid<float> striped_cone() {
-  Grid<float> cells(60, 50);
-  for (const auto [x, y] : test::cells(60, 50))
-    cells(x, y) =
-        static_cast<float>(900.0 - 8.0 * std::hypot(x - 30, y - 25) + (y % 2 == 0 ? 1.0 : -1.0));
-  return cells;
+  return test::grid_of(60, 50, [&](int x, int y) {
+    return 900.0 - 8.0 * std::hypot(x - 30, y - 25) + (y % 2 == 0 ? 1.0 : -1.0);
+  });
 }
 
 TEST(TerrainOperators, AreOffUnlessAskedFor) {

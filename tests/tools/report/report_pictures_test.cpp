@@ -137,10 +137,8 @@ TEST(PictureText, WhatLiesOutsideIsCutOff) {
 }
 
 Grid<glm::vec3> colours(int width, int height) {
-  Grid<glm::vec3> picture(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    picture(x, y) = glm::vec3(x, y, (x + y) % 200) / 255.F;
-  return picture;
+  return test::grid_of<glm::vec3>(
+      width, height, [&](int x, int y) { return glm::vec3(x, y, (x + y) % 200) / 255.F; });
 }
 
 TEST(EncodedPicture, PngKeepsEveryValue) {

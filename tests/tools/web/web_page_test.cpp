@@ -347,11 +347,10 @@ namespace fs = std::filesystem;
 
 // Smooth, so that JPEG keeps it.
 Grid<glm::vec3> slope(int width, int height) {
-  Grid<glm::vec3> out(width, height);
-  for (const auto [x, y] : test::cells(width, height))
-    out(x, y) = {static_cast<float>(x) / static_cast<float>(width),
-                 static_cast<float>(y) / static_cast<float>(height), 0.5F};
-  return out;
+  return test::grid_of<glm::vec3>(width, height, [&](int x, int y) {
+    return {static_cast<float>(x) / static_cast<float>(width),
+            static_cast<float>(y) / static_cast<float>(height), 0.5F};
+  });
 }
 
 TEST(TilePyramid, TilesOfEveryLevelShowThePicture) {
