@@ -20,4 +20,10 @@ struct Notes : Progress {
   std::vector<std::string> all;
 };
 
+// Keeps the names of the stages that begin.
+struct Stages : Progress {
+  void begin(std::string_view stage, double) override { all.emplace_back(stage); }
+  std::vector<std::string> all;
+};
+
 }  // namespace belvedere::test

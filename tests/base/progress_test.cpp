@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/notes.h"
+
 namespace belvedere {
 namespace {
 
@@ -37,12 +39,9 @@ TEST(Progress, WhoListensHearsEverythingInItsOrder) {
 }
 
 TEST(Progress, WhoListensToNotesNeedNotListenToMore) {
-  struct Notes : Progress {
-    std::vector<std::string> heard;
-    void note(std::string_view text) override { heard.emplace_back(text); }
-  } notes;
+  test::Notes notes;
   work(notes);
-  EXPECT_THAT(notes.heard, ElementsAre("a void is filled"));
+  EXPECT_THAT(notes.all, ElementsAre("a void is filled"));
 }
 
 // It is shared by all callers without a report, so it must have no state.

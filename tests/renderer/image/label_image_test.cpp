@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "tests/grids.h"
+#include "tests/notes.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "texture/synthesis/exemplar.h"
 
@@ -102,17 +103,14 @@ TEST_F(LabelImage, ColoursOffByLossesAreTheFrequentOnes) {
     }
     return out;
   };
-  struct Notes : Progress {
-    std::string text;
-    void note(std::string_view line) override { text += line; }
-  } notes;
+  test::Notes notes;
   const LabelImages images = read_label_images({write("a.png", 2, rows(5))}, notes);
   ASSERT_EQ(images.colours.size(), 2U);
   EXPECT_EQ(images.colours[1], (Rgb8{200, 0x30, 0x30}));
   EXPECT_EQ(images.labels[0](3, 3), 1);
-  EXPECT_NE(notes.text.find("1 flat colours are within 12 steps of 2"), std::string::npos)
-      << notes.text;
-  EXPECT_NE(notes.text.find("2.81 %"), std::string::npos) << "9 of 320 pixels: " << notes.text;
+  EXPECT_NE(notes.text().find("1 flat colours are within 12 steps of 2"), std::string::npos)
+      << notes.text();
+  EXPECT_NE(notes.text().find("2.81 %"), std::string::npos) << "9 of 320 pixels: " << notes.text();
   // Farther away it is a label of its own.
   EXPECT_EQ(read_label_images({write("b.png", 2, rows(40))}).colours.size(), 3U);
 }

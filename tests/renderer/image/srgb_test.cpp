@@ -7,6 +7,7 @@
 
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"
+#include "tests/notes.h"
 #include "tests/renderer/image/picture_bytes.h"
 
 namespace belvedere {
@@ -95,17 +96,13 @@ std::string lab_tiff(int bits, int photometric) {
 
 TEST(CieLab, TiffsOfLabAreReadInSrgb) {
   const test::Folder folder;
-  struct Notes : Progress {
-    std::string text;
-    void note(std::string_view line) override { text += line; }
-  };
   for (const int bits : {8, 16})
     for (const int photometric : {8, 9}) {
       const std::string path = folder / "lab.tif";
       test::write_bytes(path, lab_tiff(bits, photometric));
-      Notes notes;
+      test::Notes notes;
       const Grid<glm::vec3> picture = read_painting(path, notes);
-      EXPECT_THAT(notes.text, testing::HasSubstr("CIE Lab"));
+      EXPECT_THAT(notes.text(), testing::HasSubstr("CIE Lab"));
       ASSERT_EQ(picture.width(), static_cast<int>(std::size(known)));
       for (std::size_t i = 0; i < picture.size(); ++i)
         for (int c = 0; c < 3; ++c)

@@ -14,6 +14,7 @@
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
 #include "tests/grids.h"
+#include "tests/notes.h"
 #include "tests/paths.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "tests/shared_cache.h"

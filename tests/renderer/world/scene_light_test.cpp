@@ -12,6 +12,7 @@
 #include "renderer/world/world.h"
 #include "tests/files.h"
 #include "tests/grids.h"
+#include "tests/notes.h"
 #include "tests/renderer/trace/synthetic_ground.h"
 #include "tests/scenes.h"
 
@@ -93,16 +94,12 @@ TEST(SceneLight, ReadsTheAreasOfAFile) {
 
 // A note names the block and says where to get its file; the picture is that without the block.
 TEST(SceneLight, NotesAnOptionalFileThatIsMissing) {
-  class Notes : public Progress {
-   public:
-    void note(std::string_view text) override { notes.emplace_back(text); }
-    std::vector<std::string> notes;
-  } progress;
+  test::Notes progress;
   const std::string block =
       "[[light.regions]]\nfile = \"nowhere.gpkg\"\nget_from = \"the club\"\nturn_deg = 40\n";
   const World world = make_world(with(block + "optional = true\n"), progress);
   EXPECT_EQ(world.light_field, nullptr);
-  EXPECT_THAT(progress.notes,
+  EXPECT_THAT(progress.all,
               testing::Contains("light.regions.0 is left out: nowhere.gpkg is missing; the club"));
   const World beside = make_world(with(block + "optional = true\n" + cloud), silent_progress());
   ASSERT_NE(beside.light_field, nullptr) << "the cloud stays";

@@ -13,6 +13,7 @@
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 #include "tests/grids.h"
+#include "tests/notes.h"
 #include "tests/scenes.h"
 #include "tests/shared_cache.h"
 
@@ -22,11 +23,6 @@ namespace {
 using testing::ElementsAre;
 using testing::ElementsAreArray;
 using testing::IsEmpty;
-
-struct ToldStages : Progress {
-  void begin(std::string_view stage, double) override { all.emplace_back(stage); }
-  std::vector<std::string> all;
-};
 
 // A small scene with values of its own for some keys.
 LoadedScene hills(std::vector<std::string> settings = {}) {
@@ -216,14 +212,14 @@ TEST(SceneValuesLong, NoChangeIsOverlooked) {
 std::vector<std::string> stages_after(const std::string& change) {
   static ValueStore kept;
   { const World first = make_world(hills(), silent_progress(), no_cache(), {}, &kept); }
-  ToldStages stages;
+  test::Stages stages;
   const World second = make_world(hills({change}), stages, no_cache(), {}, &kept);
   return stages.all;
 }
 
 TEST(SceneValues, AtFirstEverythingIsMade) {
   ValueStore kept;
-  ToldStages stages;
+  test::Stages stages;
   const World world = make_world(hills(), stages, no_cache(), {}, &kept);
   EXPECT_THAT(stages.all, ElementsAre("synthetic terrain", "class rules", "generalize",
                                       "building the ray tracer"));
@@ -264,23 +260,19 @@ TEST(SceneValues, GroundThatIsMaskedByClassesFollowsThem) {
   const std::string masked = "generalize.mask_classes={ forest = 0 }";
   ValueStore kept;
   { const World first = make_world(hills({masked}), silent_progress(), no_cache(), {}, &kept); }
-  ToldStages stages;
+  test::Stages stages;
   const World second = make_world(hills({masked, "land_cover.settings.treeline_m=1000"}), stages,
                                   no_cache(), {}, &kept);
   EXPECT_THAT(stages.all, ElementsAre("class rules", "generalize", "building the ray tracer"));
 }
 
 TEST(SceneValues, NotesAreToldAgainWithTheValuesThatAreKept) {
-  struct ToldNotes : Progress {
-    void note(std::string_view text) override { all.emplace_back(text); }
-    std::vector<std::string> all;
-  };
   const LoadedScene scene = hills({"land_cover.sea_level_m=1100"});
   ValueStore kept;
-  ToldNotes first;
+  test::Notes first;
   { const World world = make_world(scene, first, no_cache(), {}, &kept); }
   ASSERT_THAT(first.all, testing::Contains(testing::StartsWith("sea: ")));
-  ToldNotes again;
+  test::Notes again;
   const World world = make_world(scene, again, no_cache(), {}, &kept);
   EXPECT_EQ(again.all, first.all);
 }
@@ -399,7 +391,7 @@ TEST(SceneValues, AFileThatChangedIsReadAgain) {
   write_slope(folder / "slope.tif", 700.F);
   std::filesystem::last_write_time(
       folder / "slope.tif", std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
-  ToldStages stages;
+  test::Stages stages;
   const World world = make_world(scene, stages, test::shared_cache(), {}, &kept);
   EXPECT_EQ(world.dem->altitude_m(0, 0), 700.F);
   EXPECT_THAT(stages.all, testing::Contains("generalize"));

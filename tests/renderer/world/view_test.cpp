@@ -12,6 +12,7 @@
 #include "renderer/scene/scene_file.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/notes.h"
 
 // Camera and sun of a scene on its terrain. How the keys of [deform] become a deformation is tested
 // in tests/renderer/scene/scene_deform_test.cpp.
@@ -132,14 +133,11 @@ TEST(View, TheSunsSideInThePicture) {
 }
 
 TEST(View, ASunBelowTheHorizonIsNoted) {
-  struct Notes : Progress {
-    std::string all;
-    void note(std::string_view text) override { all += text; }
-  } notes;
+  test::Notes notes;
   make_view(scene_of(centre + "height_m = 3000\n[sun]\naltitude_deg = 1\n"), level(), notes);
-  EXPECT_EQ(notes.all, "");
+  EXPECT_EQ(notes.text(), "");
   make_view(scene_of(centre + "height_m = 3000\n[sun]\naltitude_deg = -4\n"), level(), notes);
-  EXPECT_THAT(notes.all, HasSubstr("4.0° below the horizon"));
+  EXPECT_THAT(notes.text(), HasSubstr("4.0° below the horizon"));
 }
 
 // Azimuths count from the grid's north. East of the central meridian true north is to the left of

@@ -16,6 +16,7 @@
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 #include "tests/grids.h"
+#include "tests/notes.h"
 #include "tests/scenes.h"
 
 namespace belvedere {
@@ -26,13 +27,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-struct Stages : Progress {
-  void begin(std::string_view stage, double) override { all.emplace_back(stage); }
-  std::vector<std::string> all;
-};
-
 TEST(World, IsMadeInOrder) {
-  Stages stages;
+  test::Stages stages;
   const World world = make_world(small_scene(), stages);
   EXPECT_THAT(stages.all, ElementsAre("synthetic terrain", "class rules", "generalize",
                                       "building the ray tracer"));
@@ -62,7 +58,7 @@ TEST(World, SharesTheTerrainThatIsThere) {
   const auto dem = std::make_shared<const Dem>(make_scene_dem(loaded, silent_progress()));
   const auto cover =
       std::make_shared<const LandCover>(make_scene_land_cover(loaded, *dem, silent_progress()));
-  Stages stages;
+  test::Stages stages;
   const World world = make_world(loaded, stages, no_cache(), {dem, cover});
   EXPECT_EQ(world.dem, dem);
   EXPECT_EQ(world.land_cover, cover);
@@ -84,7 +80,7 @@ TEST(World, RefusesAMachineThatCannotBeforeItReadsAnything) {
   const char* old = std::getenv("BELVEDERE_INSTRUCTION_SET");
   const std::string kept = old == nullptr ? "" : old;
   setenv("BELVEDERE_INSTRUCTION_SET", "sse4.2", 1);
-  Stages stages;
+  test::Stages stages;
   EXPECT_THAT(test::message_of(ErrorKind::limit,
                                [&] {
                                  const World world = make_world(
@@ -102,7 +98,7 @@ TEST(World, RefusesAMachineThatCannotBeforeItReadsAnything) {
 }
 
 TEST(World, RefusesAnEyeBelowTheGroundBeforeLandCoverIsMade) {
-  Stages stages;
+  test::Stages stages;
   EXPECT_THAT(test::usage_error([&] {
                 const World world = make_world(
                     small_scene({"camera.position=[6000,6000]", "camera.height_m=-500"}), stages);
@@ -112,7 +108,7 @@ TEST(World, RefusesAnEyeBelowTheGroundBeforeLandCoverIsMade) {
 }
 
 TEST(World, RefusesFoldedGroundBeforeTheTracerIsBuilt) {
-  Stages stages;
+  test::Stages stages;
   EXPECT_THAT(
       test::usage_error([&] {
         const World world = make_world(

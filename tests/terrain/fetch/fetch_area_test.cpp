@@ -123,7 +123,7 @@ TEST_F(FetchArea, ATileThatIsNotThereIsSea) {
   serve();
   const FetchedArea area = fetch(parameters({9.95, 42.5}, 50.0));
   EXPECT_TRUE(area.elevation.tiles[1].about.missing);
-  EXPECT_THAT(progress_.notes, HasSubstr("N42E010"));
+  EXPECT_THAT(progress_.text(), HasSubstr("N42E010"));
   const Raster<float> dem = elevation();
   const PointTransform to_degrees(dem.crs, "EPSG:4326");
   int sea = 0;
@@ -243,7 +243,7 @@ TEST_F(FetchArea, LandCoverKeepsItsCodesAndGetsItsSea) {
     ASSERT_EQ(read.cells(x, y), static_cast<int>(codes(at.x, at.y))) << at.x << ", " << at.y;
   }
   EXPECT_GT(unknown, 100);
-  EXPECT_THAT(progress_.notes, HasSubstr("their class is unknown"));
+  EXPECT_THAT(progress_.text(), HasSubstr("their class is unknown"));
 }
 
 TEST_F(FetchArea, WiderCellsOfLandCoverAreOnesOfTheSource) {

@@ -73,12 +73,13 @@ TEST_F(Remote, FaultsAreAskedForAgainUntilAllIsThere) {
                                                 {"no-ranges", "cut=1"}}) {
     for (const bool with_cache : {true, false}) {
       clear_cache(path("cache"));
-      progress_.notes.clear();
+      progress_.all.clear();
       const std::string bytes = serve_noise(modes);
       EXPECT_TRUE(read(100, 3 * mib, with_cache) == bytes.substr(100, 3 * mib))
-          << modes[0] << with_cache << progress_.notes;
+          << modes[0] << with_cache << progress_.text();
       if (modes[0] == "no-ranges" && modes.size() == 1) continue;
-      EXPECT_THAT(progress_.notes, AllOf(HasSubstr("file.bin"), HasSubstr("retrying"))) << modes[0];
+      EXPECT_THAT(progress_.text(), AllOf(HasSubstr("file.bin"), HasSubstr("retrying")))
+          << modes[0];
     }
   }
 }
@@ -120,7 +121,7 @@ TEST_F(Remote, AServerMaySayHowLongToWait) {
   const auto begun = std::chrono::steady_clock::now();
   read(0, 10);
   EXPECT_GE(std::chrono::steady_clock::now() - begun, std::chrono::milliseconds(990));
-  EXPECT_THAT(progress_.notes, HasSubstr("in 1 s"));
+  EXPECT_THAT(progress_.text(), HasSubstr("in 1 s"));
 }
 
 TEST_F(Remote, ARunGoesOnWhereTheLastEnded) {
@@ -143,7 +144,7 @@ TEST_F(Remote, OfflineWhatIsKeptServes) {
   std::string out(100, '\0');
   file.read(mib + 7, 100, out.data());
   EXPECT_TRUE(out == bytes.substr(mib + 7, 100));
-  EXPECT_THAT(progress_.notes, HasSubstr("using cached properties"));
+  EXPECT_THAT(progress_.text(), HasSubstr("using cached properties"));
   RemoteFile more(address, {client, cache_, progress_, now_, false});
   const std::string message = test::input_error([&] { more.read(3 * mib, 100, out.data()); });
   EXPECT_THAT(message, AllOf(HasSubstr("connection refused"), HasSubstr("--mirror")));
@@ -196,7 +197,7 @@ TEST_F(Remote, AChangedFileIsReadAnew) {
   const DegreeBox all{11.1, 47.1, 11.9, 47.9};
   const Grid<float> through_cache = cells(cache_, all);
   EXPECT_EQ(through_cache, cells(no_cache(), all));
-  EXPECT_THAT(progress_.notes, HasSubstr("changed on the server"));
+  EXPECT_THAT(progress_.text(), HasSubstr("changed on the server"));
 }
 
 // Damaged bytes do not stay in the cache.

@@ -16,15 +16,9 @@
 #include "tests/files.h"
 #include "tests/grids.h"
 #include "tests/http_server.h"
+#include "tests/notes.h"
 
 namespace belvedere {
-
-// Records notes and stages.
-class KeptProgress : public Progress {
- public:
-  void note(std::string_view text) override { notes += std::string(text) + "\n"; }
-  std::string notes;
-};
 
 // Services of synthetic tiles, served by tests/http_server.py from a folder of the test's own.
 class ServedTiles : public ::testing::Test {
@@ -150,7 +144,7 @@ class ServedTiles : public ::testing::Test {
 
   test::Folder folder_;
   Cache cache_{{.folder = folder_ / "cache", .limit_bytes = 0}};
-  KeptProgress progress_;
+  test::Notes progress_;
   std::unique_ptr<test::HttpServer> server_;
   std::int64_t now_ = 1'800'000'000;  // 2027-01-15
 };

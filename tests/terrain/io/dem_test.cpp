@@ -9,6 +9,7 @@
 #include "terrain/io/dem_levels.h"
 #include "terrain/io/raster_io.h"
 #include "tests/grids.h"
+#include "tests/notes.h"
 #include "tests/paths.h"
 #include "tests/terrain/io/raster_files.h"
 
@@ -116,10 +117,7 @@ TEST(Dem, SameBitsForAnyThreads) {
 }
 
 TEST_F(DemFiles, ReadsConvertsFillsAndSaysSo) {
-  struct Notes : Progress {
-    std::string text;
-    void note(std::string_view line) override { text += line; }
-  } notes;
+  test::Notes notes;
   write_ascii("f.asc", 50, 40, 500000, 5200000, 30,
               [](int x, int y) { return x == 20 && y < 10 ? "-9999" : std::to_string(3000 + x); });
   DemParameters parameters;
@@ -129,7 +127,7 @@ TEST_F(DemFiles, ReadsConvertsFillsAndSaysSo) {
   parameters.sources[0].crs = "EPSG:32632";
   parameters.sources[0].unit_to_m = 0.3048;
   const Dem dem = read_dem(parameters, notes);
-  EXPECT_THAT(notes.text, HasSubstr("10 void cells"));
+  EXPECT_THAT(notes.text(), HasSubstr("10 void cells"));
   EXPECT_FLOAT_EQ(dem.altitude_m(10, 5), 3010.F * 0.3048F);
   EXPECT_EQ(dem.filled(20, 9), 1);
   EXPECT_EQ(dem.filled(20, 10), 0);
@@ -147,10 +145,6 @@ TEST_F(DemFiles, ReadsConvertsFillsAndSaysSo) {
 // Coordinates in another system than the given one: the ground is read, with a note on its
 // position.
 TEST_F(DemFiles, APlaceFarFromWhereItsSystemIsUsedIsDoubted) {
-  struct Notes : Progress {
-    std::string text;
-    void note(std::string_view line) override { text += line; }
-  };
   const auto notes_of = [&](double east, double north, const char* crs) {
     write_ascii("f.asc", 50, 40, east, north, 30,
                 [](int x, int) { return std::to_string(1000 + x); });
@@ -158,9 +152,9 @@ TEST_F(DemFiles, APlaceFarFromWhereItsSystemIsUsedIsDoubted) {
     parameters.sources.resize(1);
     parameters.sources[0].path = path("f.asc");
     parameters.sources[0].crs = crs;
-    Notes notes;
+    test::Notes notes;
     read_dem(parameters, notes);
-    return notes.text;
+    return notes.text();
   };
   EXPECT_EQ(notes_of(500000, 5200000, "EPSG:32632"), "") << "9° E, in its zone";
   EXPECT_EQ(notes_of(950000, 5200000, "EPSG:32632"), "")
@@ -221,11 +215,6 @@ INSTANTIATE_TEST_SUITE_P(
 
 using testing::AllOf;
 
-struct KeptNotes : Progress {
-  std::string text;
-  void note(std::string_view line) override { text += std::string(line) + "\n"; }
-};
-
 class HeightDoubts : public RasterFiles {
  protected:
   DemParameters dem_of(const std::string& name, const std::string& crs = "EPSG:32632") const {
@@ -275,11 +264,11 @@ TEST_F(HeightDoubts, NumbersOfUnknownHeightsAreVoids) {
     write_ascii("f.asc", 40, 40, 500000, 5200000, 30, [&](int x, int y) {
       return x > 10 && x < 15 && y > 10 ? std::string(value) : std::to_string(1000 + x);
     });
-    KeptNotes notes;
+    test::Notes notes;
     const Dem dem = read_dem(dem_of("f.asc"), notes);
     EXPECT_EQ(dem.filled(12, 20), 1) << value;
     EXPECT_NEAR(dem.altitude_m(12, 20), 1012.F, 3.F) << value;
-    EXPECT_THAT(notes.text,
+    EXPECT_THAT(notes.text(),
                 AllOf(HasSubstr(std::string("cells of ") + value), HasSubstr("`nodata`")));
   }
   // Declared as another value: small numbers may then be heights, large ones never.
@@ -309,12 +298,12 @@ TEST_F(HeightDoubts, NodataThatTheCellsCannotHoldIsVoid) {
       // With a point: GDAL reads whole numbers of an ASCII grid in 32 bits with a sign.
       return (x > 10 && x < 15 && y > 10 ? c.stored : std::to_string(100 + x)) + ".0";
     });
-    KeptNotes notes;
+    test::Notes notes;
     const Dem dem = read_dem(dem_of("w.vrt"), notes);
     EXPECT_EQ(dem.filled(12, 20), 1) << c.type;
     EXPECT_EQ(dem.filled(5, 20), 0) << c.type;
     EXPECT_NEAR(dem.altitude_m(12, 20), 112.F, 3.F) << c.type;
-    EXPECT_THAT(notes.text, HasSubstr(std::string("nodata value ") + c.nodata)) << c.type;
+    EXPECT_THAT(notes.text(), HasSubstr(std::string("nodata value ") + c.nodata)) << c.type;
     const RasterSource codes = source_of(path("w.vrt"), "EPSG:32632");
     EXPECT_EQ(read_codes(codes).cells(12, 20), -1) << c.type;
   }
@@ -339,18 +328,18 @@ TEST_F(HeightDoubts, SignedBytesHaveASign) {
   EXPECT_TRUE(std::isnan(read.cells(7, 5)));
   EXPECT_EQ(read_codes(source).cells(5, 9), -1) << "no code is negative";
   EXPECT_EQ(read_codes(source).cells(5, 5), 5);
-  KeptNotes notes;
+  test::Notes notes;
   EXPECT_EQ(read_dem(dem_of("s.vrt"), notes).altitude_m(5, 9), -6.F);
-  EXPECT_EQ(notes.text.find("0…255"), std::string::npos);
+  EXPECT_EQ(notes.text().find("0…255"), std::string::npos);
 }
 
 TEST_F(HeightDoubts, HeightsOfNoGroundAreNotedWithTheKeysThatHelp) {
   const auto notes_of = [&](const std::string& odd) {
     write_ascii("f.asc", 20, 20, 500000, 5200000, 30,
                 [&](int x, int y) { return x / 3 == 1 && y / 3 == 2 ? odd : "1200"; });
-    KeptNotes notes;
+    test::Notes notes;
     read_dem(dem_of("f.asc"), notes);
-    return notes.text;
+    return notes.text();
   };
   EXPECT_EQ(notes_of("-10900"), "") << "the Challenger Deep";
   EXPECT_EQ(notes_of("8849"), "");
@@ -362,9 +351,9 @@ TEST_F(HeightDoubts, FeetAreAskedForWhereTheMapCountsInFeet) {
   write_ascii("f.asc", 20, 20, 3000000, 1000000, 100,
               [](int x, int) { return std::to_string(9000 + x); });
   const auto notes_of = [&](const DemParameters& parameters) {
-    KeptNotes notes;
+    test::Notes notes;
     check_height_sources(parameters.sources, notes);
-    return notes.text;
+    return notes.text();
   };
   DemParameters parameters = dem_of("f.asc", "EPSG:2232");  // Colorado Central, survey feet
   EXPECT_THAT(notes_of(parameters), AllOf(HasSubstr("is in feet"), HasSubstr("\"us-ft\"")));
@@ -381,9 +370,9 @@ TEST_F(HeightDoubts, ColoursAreNoHeights) {
   EXPECT_EQ(picture.kind(), ErrorKind::input);
   EXPECT_THAT(picture.what(), AllOf(HasSubstr("colour picture"), HasSubstr("terrarium")));
   EXPECT_THAT(refused(colours({"Palette"}, {7})).what(), HasSubstr("palette"));
-  KeptNotes notes;
+  test::Notes notes;
   read_dem(colours({"Gray"}, {120}), notes);
-  EXPECT_THAT(notes.text, HasSubstr("8 bits"));
+  EXPECT_THAT(notes.text(), HasSubstr("8 bits"));
 }
 
 // A clipped DEM: 0 outside a circle, slopes of 900…1500 m inside.
@@ -394,13 +383,14 @@ TEST_F(HeightDoubts, ZeroOutsideAnOutlineIsVoid) {
               [&](int x, int y) { return std::to_string(inside(x, y) ? height(x, y) : 0); });
   DemParameters parameters = dem_of("f.asc");
   parameters.max_void_share = 0.9;
-  KeptNotes notes;
+  test::Notes notes;
   const Dem dem = read_dem(parameters, notes);
   for (const auto [x, y] : test::cells(40, 40)) {
     ASSERT_EQ(dem.filled(x, y) != 0, !inside(x, y)) << x << ' ' << y;
     ASSERT_GT(dem.altitude_m(x, y), 900.F) << x << ' ' << y;
   }
-  EXPECT_THAT(notes.text, AllOf(HasSubstr("cells of 0 are taken as void"), HasSubstr("`nodata`")));
+  EXPECT_THAT(notes.text(),
+              AllOf(HasSubstr("cells of 0 are taken as void"), HasSubstr("`nodata`")));
   // Said: they are heights.
   parameters.sources[0].nodata = -1.0;
   EXPECT_EQ(read_dem(parameters, silent_progress()).altitude_m(0, 0), 0.F);
@@ -411,9 +401,9 @@ TEST_F(HeightDoubts, ZeroBesideACoastIsSea) {
   write_ascii("f.asc", 60, 40, 500000, 5200000, 30, [](int x, int y) {
     return std::to_string(x < 20 ? 0 : y % 3 == 0 ? 120 + x : (x - 19) * 12);
   });
-  KeptNotes notes;
+  test::Notes notes;
   const Dem dem = read_dem(dem_of("f.asc"), notes);
-  EXPECT_EQ(notes.text, "");
+  EXPECT_EQ(notes.text(), "");
   EXPECT_EQ(dem.filled(3, 3), 0);
   EXPECT_EQ(dem.altitude_m(3, 3), 0.F);
 }
@@ -428,12 +418,12 @@ TEST_F(HeightDoubts, SpikesOfSingleCellsAreVoid) {
   };
   for (const double spike : {700.0, -700.0}) {
     write(spike, 1);
-    KeptNotes notes;
+    test::Notes notes;
     const Dem dem = read_dem(dem_of("f.asc"), notes);
     EXPECT_EQ(dem.filled(12, 7), 1);
     EXPECT_EQ(dem.filled(13, 7), 0);
     EXPECT_NEAR(dem.altitude_m(12, 7), height(12, 7), 1.0);
-    EXPECT_THAT(notes.text, AllOf(HasSubstr("1 single cells"), HasSubstr("column 12, row 7")));
+    EXPECT_THAT(notes.text(), AllOf(HasSubstr("1 single cells"), HasSubstr("column 12, row 7")));
   }
   // A mesa is no spike, and neither is what mountains have.
   write(700.0, 3);
@@ -452,13 +442,13 @@ TEST_F(HeightDoubts, LargeGroundIsJudgedAlike) {
   });
   DemParameters parameters = dem_of("f.asc");
   parameters.max_void_share = 0.9;
-  KeptNotes whole_notes, notes;
+  test::Notes whole_notes, notes;
   const Dem dem = read_dem(parameters, whole_notes);
   const RasterFrame frame = choose_frame(parameters.sources, "", 0.0, {});
   DemLevels levels(parameters, frame, 1, 0.0, notes);
   for (const char* said : {"cells of 0 are", "1 single cells", "cells of -99999"}) {
-    EXPECT_THAT(whole_notes.text, HasSubstr(said));
-    EXPECT_THAT(notes.text, HasSubstr(said));
+    EXPECT_THAT(whole_notes.text(), HasSubstr(said));
+    EXPECT_THAT(notes.text(), HasSubstr(said));
   }
   const Dem whole = levels.whole();
   for (const float z : whole.altitude_m) ASSERT_NEAR(z, 1200.F, 0.5F);
@@ -472,12 +462,12 @@ TEST_F(HeightDoubts, AFileReadAloneIsJudgedAlike) {
               [](int x, int y) { return std::string(x == 9 && y == 9 ? "5000" : "1200"); });
   RasterSource source;
   source.path = path("f.asc");
-  KeptNotes notes;
+  test::Notes notes;
   const Dem dem = read_own_dem(source, notes);
   EXPECT_EQ(dem.crs, "");
   EXPECT_EQ(dem.filled(9, 9), 1);
   EXPECT_EQ(dem.altitude_m(9, 9), 1200.F);
-  EXPECT_THAT(notes.text, HasSubstr("1 single cells"));
+  EXPECT_THAT(notes.text(), HasSubstr("1 single cells"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "renderer/image/icc/device_colour.h"
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
+#include "tests/notes.h"
 #include "tests/renderer/image/random_picture.h"
 
 namespace belvedere {
@@ -17,14 +18,11 @@ using test::random_picture;
 
 TEST(ReadPainting, ComesInSrgbWithANoteOnWhatWasChanged) {
   const Folder folder("painting");
-  struct Notes : Progress {
-    std::string text;
-    void note(std::string_view line) override { text += line; }
-  } notes;
+  test::Notes notes;
   const Grid<glm::vec3> picture = random_picture(40, 30);
   write_tiff16(folder / "s.tif", picture, {.icc_profile = srgb_profile(), .notes = {}});
   EXPECT_EQ(read_painting(folder / "s.tif", notes), read_picture(folder / "s.tif"));
-  EXPECT_EQ(notes.text, "");
+  EXPECT_EQ(notes.text(), "");
   // Swapping red and green in the profile's tag table swaps them in the colours.
   std::vector<std::uint8_t> profile = srgb_profile();
   const std::string text(profile.begin(), profile.end());
@@ -32,7 +30,7 @@ TEST(ReadPainting, ComesInSrgbWithANoteOnWhatWasChanged) {
   profile[text.find("gXYZ")] = 'r';
   write_tiff16(folder / "p.tif", picture, {.icc_profile = profile, .notes = {}});
   const Grid<glm::vec3> painting = read_painting(folder / "p.tif", notes);
-  EXPECT_THAT(notes.text, testing::HasSubstr("converted to sRGB"));
+  EXPECT_THAT(notes.text(), testing::HasSubstr("converted to sRGB"));
   for (std::size_t i = 0; i < picture.size(); ++i) {
     EXPECT_NEAR(painting[i].x, picture[i].y, 1e-3);
     EXPECT_NEAR(painting[i].y, picture[i].x, 1e-3);
