@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -24,13 +25,9 @@ TEST_F(MemoryBudget, IsSetByTheEnvironment) {
   setenv("BELVEDERE_MEMORY_MIB", "16", 1);
   EXPECT_EQ(memory_budget_bytes(), std::uint64_t{16} << 20);
   EXPECT_NO_THROW(check_memory("a.tif", 16.0 * 1048576.0));
-  try {
-    check_memory("a.tif", 16.0 * 1048576.0 + 1.0);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::limit);
-    EXPECT_EQ(error.where(), "a.tif");
-  }
+  const Error error = test::error_of([&] { check_memory("a.tif", 16.0 * 1048576.0 + 1.0); });
+  EXPECT_EQ(error.kind(), ErrorKind::limit);
+  EXPECT_EQ(error.where(), "a.tif");
 }
 
 TEST_F(MemoryBudget, IsLimitedWhileALimitLives) {

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/files.h"
 #include "tests/grids.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "tests/renderer/image/random_picture.h"
@@ -33,13 +34,7 @@ Image grey_ramp(int count, double low, double high) {
 }
 
 Error error_of(const DisplayParameters& parameters) {
-  try {
-    to_display(Image(1, 1), parameters);
-  } catch (const Error& e) {
-    return e;
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return Error(ErrorKind::bug, "", "");
+  return test::error_of([&] { to_display(Image(1, 1), parameters); });
 }
 
 class Color : public testing::Test {

@@ -21,13 +21,7 @@ glm::vec3 rgb(unsigned code) {
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    parse_palette(text, "test.toml");
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    return error.what();
-  }
-  return "no error";
+  return test::usage_error([&] { parse_palette(text, "test.toml"); });
 }
 
 TEST(Palette, RampIsExactAtItsStops) {

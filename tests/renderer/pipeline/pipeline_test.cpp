@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
+#include "tests/files.h"
 #include "tests/grids.h"
 #include "tests/notes.h"
 #include "tests/paths.h"
@@ -214,23 +215,16 @@ TEST_F(Pipeline, EveryFileSaysWhatMadeIt) {
 
 TEST_F(Pipeline, AnOutputThatCannotBeWrittenIsRefusedBeforeTheWork) {
   folder_.write("file", "no folder");
-  try {
-    render(scene(), out("file") + "/below", {});
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::output);
-  }
+  test::message_of(ErrorKind::output, [&] { render(scene(), out("file") + "/below", {}); });
 }
 
 TEST_F(Pipeline, APictureBeyondMemoryIsRefusedWithTheEstimate) {
-  try {
+  const Error error = test::error_of([&] {
     render(scene({"output.width=60000", "output.height=60000"}), out("a"),
            {.memory_bytes = 100U << 20U});
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::limit);
-    EXPECT_NE(std::string(error.what()).find("MiB"), std::string::npos);
-  }
+  });
+  EXPECT_EQ(error.kind(), ErrorKind::limit);
+  EXPECT_NE(std::string(error.what()).find("MiB"), std::string::npos);
 }
 
 // The work would begin if the estimate left the ground out.
@@ -257,13 +251,11 @@ TEST_F(Pipeline, WhatGroundLeavesIsKnownBeforeTheWork) {
 }
 
 TEST_F(Pipeline, AnEyeBelowTheGroundIsRefusedWithTheHeight) {
-  try {
+  const Error error = test::error_of([&] {
     render(scene({"camera.position=[9000, 9000]", "camera.height_m=-500"}), out("a"), {});
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_NE(std::string(error.what()).find("below the ground"), std::string::npos);
-  }
+  });
+  EXPECT_EQ(error.kind(), ErrorKind::usage);
+  EXPECT_NE(std::string(error.what()).find("below the ground"), std::string::npos);
 }
 
 TEST_F(Pipeline, ASunBelowTheHorizonIsNotedAndLeavesSkyLight) {

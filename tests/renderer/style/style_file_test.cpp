@@ -32,13 +32,7 @@ const Style& example() {
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    parse_style(text, "test.toml");
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    return error.what();
-  }
-  return "no error";
+  return test::usage_error([&] { parse_style(text, "test.toml"); });
 }
 
 std::string changed(const std::string& from, const std::string& to) {

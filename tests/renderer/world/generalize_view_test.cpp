@@ -123,12 +123,6 @@ class ViewedGround : public testing::Test {
     view.viewer_xy = {508000.0, 5190000.0};
     return view;
   }
-  static double largest_difference(const Grid<float>& a, const Grid<float>& b) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      largest = std::max(largest, static_cast<double>(std::abs(a[i] - b[i])));
-    return largest;
-  }
 
   Raster<float> ground_;
   test::Folder folder_;
@@ -142,8 +136,8 @@ TEST_F(ViewedGround, BandsFinerThanThePrintGoAndOthersStay) {
   const View limit = from_above(318.0);
   const Grid<float> without_finest =
       seen(scene("keep_lakes = false\nforeground = [1, 1, 0]\nbackground = [1, 1, 0]\n"), &limit);
-  ASSERT_GT(largest_difference(without_finest, ground_.cells), 15.0);
-  EXPECT_LT(largest_difference(seen(scene(print + "2.5\n"), &limit), without_finest), 0.5);
+  ASSERT_GT(test::largest_difference(without_finest, ground_.cells), 15.0);
+  EXPECT_LT(test::largest_difference(seen(scene(print + "2.5\n"), &limit), without_finest), 0.5);
   const View near = from_above(150.0);
   EXPECT_EQ(seen(scene(print + "2.5\n"), &near), ground_.cells);
   EXPECT_EQ(seen(scene(print + "1\n"), &limit), ground_.cells);  // a finer print shows it
@@ -189,7 +183,7 @@ TEST_F(ViewedGround, TwoViewsOfOneSceneHaveEachItsOwn) {
   const Grid<float> from_north_east = seen(scene(settings, "position = [515000, 5199000]"));
   const Grid<float> all_far =
       seen(scene("keep_lakes = false\nforeground = [1, 0.5, 0]\nbackground = [1, 0.5, 0]\n"));
-  EXPECT_GT(largest_difference(from_south_west, from_north_east), 15.0);
+  EXPECT_GT(test::largest_difference(from_south_west, from_north_east), 15.0);
   for (const auto [x, y] : test::cells(15, 15)) {
     // Cells at the south-western and at the north-eastern corner: unchanged near the viewer, only
     // background at the other.

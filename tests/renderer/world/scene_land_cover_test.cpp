@@ -235,12 +235,8 @@ TEST(LayersInAScene, HangOnItsClimateAlsoFromTheCache) {
       }
     }
   }
-  try {
-    made("", "", cache);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.where(), "climate.latitude_deg");
-  }
+  const Error error = test::error_of([&] { made("", "", cache); });
+  EXPECT_EQ(error.where(), "climate.latitude_deg");
 }
 
 }  // namespace

@@ -467,13 +467,11 @@ TEST(ClassRules, SameForAnyNumberOfThreads) {
 }
 
 TEST(ClassRules, UnknownSettingNamesTheNearest) {
-  try {
+  const Error e = test::error_of([&] {
     apply(read_class_rules("life_zones"), cone(), {{"tree_line_m", 1.0}});
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::usage);
-    EXPECT_THAT(e.found(), testing::HasSubstr("did you mean \"treeline_m\"?"));
-  }
+  });
+  EXPECT_EQ(e.kind(), ErrorKind::usage);
+  EXPECT_THAT(e.found(), testing::HasSubstr("did you mean \"treeline_m\"?"));
 }
 
 // The error of a rules file with this text.

@@ -10,6 +10,7 @@
 #include "base/grid.h"
 #include "base/random.h"
 #include "terrain/cover/ground_variables.h"
+#include "tests/files.h"
 #include "tests/grids.h"
 
 namespace belvedere {
@@ -163,13 +164,9 @@ TEST(LayerInputs, AnyRectangleHasTheBitsOfTheWhole) {
 
 TEST(LayerInputs, ClimateIsGivenOrMissed) {
   const Dem dem = ground(20, 10, 10.0, [](double e, double) { return e; });
-  try {
-    make_layer_ground(dem, {}, {"altitude", "rain"});
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_EQ(error.where(), "input rain");
-  }
+  const Error error = test::error_of([&] { make_layer_ground(dem, {}, {"altitude", "rain"}); });
+  EXPECT_EQ(error.kind(), ErrorKind::usage);
+  EXPECT_EQ(error.where(), "input rain");
   const Grid<float> rain(20, 10, 800.F);
   LayerClimate climate;
   climate.rain_mm = &rain;

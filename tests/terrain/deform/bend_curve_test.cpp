@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -114,13 +115,9 @@ TEST(BendCurve, RefusesWhatIsNoCurve) {
   beside.radius_m = 1e5;
   for (const BendCurve& curve : {both, mixed, empty, beside, drops({{1000, 5}}),
                                  drops({{1000, 5}, {1000, 6}}), drops({{2000, 5}, {1000, 6}})}) {
-    try {
-      const BendProfile bend(curve);
-      FAIL();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::usage);
-      EXPECT_EQ(error.where().rfind("points.", 0), 0U);
-    }
+    const Error error = test::error_of([&] { const BendProfile bend(curve); });
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_EQ(error.where().rfind("points.", 0), 0U);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "terrain/layers/layer_coverage.h"
+#include "tests/files.h"
 #include "tests/grids.h"
 
 namespace belvedere {
@@ -138,12 +139,8 @@ TEST(LayerApply, SettingsAreOfTheFilesParameters) {
   layers.parameters = {{"line_m", 1000.0}};
   set_layer_parameters(layers, {{"line_m", 1200.0}});
   EXPECT_EQ(layers.parameters[0].second, 1200.0);
-  try {
-    set_layer_parameters(layers, {{"lime_m", 1.0}});
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.found(), testing::HasSubstr("did you mean \"line_m\""));
-  }
+  const Error error = test::error_of([&] { set_layer_parameters(layers, {{"lime_m", 1.0}}); });
+  EXPECT_THAT(error.found(), testing::HasSubstr("did you mean \"line_m\""));
 }
 
 }  // namespace

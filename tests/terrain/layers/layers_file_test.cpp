@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -20,14 +21,10 @@ using testing::HasSubstr;
 constexpr char head[] = "version = 1\n[[inputs]]\nname = \"altitude\"\nlow = 0\nhigh = 4000\n";
 
 void expect_fault(const std::string& text, const std::string& position, const std::string& found) {
-  try {
-    parse_surface_layers(text, "x.toml");
-    FAIL() << "read: " << text;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_EQ(error.where(), position);
-    EXPECT_THAT(error.found(), HasSubstr(found));
-  }
+  const Error error = test::error_of([&] { parse_surface_layers(text, "x.toml"); });
+  EXPECT_EQ(error.kind(), ErrorKind::usage);
+  EXPECT_EQ(error.where(), position);
+  EXPECT_THAT(error.found(), HasSubstr(found));
 }
 
 // Every kind of function, both widths, names that need escapes, numbers with all their bits.
