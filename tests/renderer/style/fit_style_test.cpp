@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "renderer/style/style_file.h"
+#include "tests/files.h"
 #include "tests/grids.h"
 #include "tests/renderer/style/synthetic_painting.h"
 #include "texture/synthesis/exemplar.h"
@@ -28,12 +29,9 @@ Style fitted(const test::Landscape& landscape) {
 }
 
 std::string refusal(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& mask) {
-  try {
-    fit_style(picture, mask, read_palette("summer"), {}, silent_progress());
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return std::string(test::error_of([&] {
+                       fit_style(picture, mask, read_palette("summer"), {}, silent_progress());
+                     }).what());
 }
 
 TEST(FitStyle, GivesAllThatASceneNeeds) {

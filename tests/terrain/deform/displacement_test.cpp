@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -107,12 +108,7 @@ TEST(Displacement, RefusesWhatHasNoMeaning) {
   const auto refused = [](auto&& change) {
     DisplacementParameters p = example(10.0);
     change(p);
-    try {
-      DisplacementField{p};
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing refused");
+    return std::string(test::error_of([&] { DisplacementField{p}; }).what());
   };
   using ::testing::HasSubstr;
   EXPECT_THAT(refused([](auto& p) { p.length_m = 0.0; }), HasSubstr("length_m: 0"));

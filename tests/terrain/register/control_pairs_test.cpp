@@ -57,13 +57,7 @@ std::vector<ControlPair> read(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    read(text);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    return error.what();
-  }
-  return "nothing refused";
+  return test::usage_error([&] { read(text); });
 }
 
 TEST(ControlPairs, HaveTheirPlaceAndTheAltitudeOfTheDem) {

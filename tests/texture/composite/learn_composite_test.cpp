@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "tests/files.h"
 #include "tests/grids.h"
 #include "tests/texture/composite/composite_crops.h"
 
@@ -15,13 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::string refusal(const LabelledCrop& crop) {
-  try {
-    learn_composite(crop, test::quick_learning());
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::input);
-    return e.what();
-  }
-  return "nothing";
+  return test::input_error([&] { learn_composite(crop, test::quick_learning()); });
 }
 
 TEST(LearnComposite, EachLabelIsLearntFromItsOwnPixels) {

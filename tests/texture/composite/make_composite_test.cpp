@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/grid.h"
 #include "base/parallel.h"
+#include "tests/files.h"
 #include "tests/grids.h"
 #include "tests/texture/composite/composite_crops.h"
 #include "texture/composite/learn_composite.h"
@@ -203,13 +204,7 @@ std::string replaced(const std::string& what, const std::string& with) {
 }
 
 std::string words(const std::string& text) {
-  try {
-    parse_composite(text, "x.composite");
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::usage);
-    return e.what();
-  }
-  return "nothing";
+  return test::usage_error([&] { parse_composite(text, "x.composite"); });
 }
 
 TEST(CompositeModelFile, ReadsBackToTheSameBits) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "tests/files.h"
 #include "tests/grids.h"
 
 namespace belvedere {
@@ -74,12 +75,7 @@ TEST(ColourRegions, MayBePaintedOverAPictureOfThePlane) {
   for (const ColourRegion& region : regions)
     EXPECT_FALSE(holds(region, {220.0, 0.6, 0.5, false}, 1000.0)) << "paper";
   const auto refused = [&](const char* text) -> std::string {
-    try {
-      parse_colour_regions(text, "r.toml", read);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return std::string(test::error_of([&] { parse_colour_regions(text, "r.toml", read); }).what());
   };
   EXPECT_NE(
       refused("image = \"p.png\"\n[[region]]\nname = \"a\"\ncolour = \"#0000ff\"").find("r.toml:4"),
@@ -90,12 +86,7 @@ TEST(ColourRegions, MayBePaintedOverAPictureOfThePlane) {
 
 TEST(ColourRegions, FaultsNameTheirPlace) {
   const auto message = [](const char* text) {
-    try {
-      parse_colour_regions(text, "r.toml");
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return std::string(test::error_of([&] { parse_colour_regions(text, "r.toml"); }).what());
   };
   EXPECT_NE(message("[[region]]\nname = \"a\"\nclass = \"glacer\"").find("r.toml:3"),
             std::string::npos);
