@@ -40,9 +40,8 @@ TEST_F(Program, HelpAndVersionAreAnswers) {
   EXPECT_THAT(run({"--version"}).out, AllOf(HasSubstr("belvedere 0."), HasSubstr("Embree")));
   for (const char* command :
        {"render", "guidance", "synthesize", "check", "deform", "info", "diff", "schema"}) {
-    const Outcome one = run({command, "--help"});
-    EXPECT_EQ(one.status, 0) << command;
-    EXPECT_THAT(one.out, HasSubstr("  belvedere " + std::string(command))) << "no example";
+    EXPECT_THAT(run({command, "--help"}), Prints(HasSubstr("  belvedere " + std::string(command))))
+        << command << "no example";
     EXPECT_THAT(help.out, HasSubstr(command));
   }
 }
@@ -99,10 +98,8 @@ TEST_F(Program, CommandsThatAreMissingOrMisspeltAreAskedFor) {
 TEST_F(Program, SceneMistakesNameFileLineAndColumn) {
   const std::string scene = write("bad.toml", "version = 1\n[camera]\npich_deg = 3\n");
   for (const char* command : {"check", "render", "guidance"}) {
-    const Outcome outcome = run({command, scene});
-    EXPECT_EQ(outcome.status, 2);
-    EXPECT_THAT(outcome.err,
-                AllOf(HasSubstr(scene + ":3:1: "), HasSubstr("did you mean \"pitch_deg\"")));
+    EXPECT_THAT(run({command, scene}), Ends(2, AllOf(HasSubstr(scene + ":3:1: "),
+                                                     HasSubstr("did you mean \"pitch_deg\""))));
   }
   const Outcome set = run({"check", write_scene_file(), "--set", "output.width=1000000000"});
   EXPECT_EQ(set.status, 2);
@@ -133,10 +130,9 @@ TEST_F(Program, FilesOutsideTheAllowedFoldersAreRefused) {
       write("out.toml", "version = 1\n[[terrain.sources]]\nfile = \"../../etc/passwd\"\n");
   EXPECT_EQ(run({"check", scene}).status, 2);
   fs::create_symlink("/etc/passwd", path("dem.tif"));
-  const Outcome outcome =
-      run({"check", write("link.toml", "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n")});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("link.toml:3:8"), HasSubstr("outside")));
+  EXPECT_THAT(
+      run({"check", write("link.toml", "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n")}),
+      Ends(2, AllOf(HasSubstr("link.toml:3:8"), HasSubstr("outside"))));
 }
 
 // ---- signals, streams, memory
@@ -156,8 +152,7 @@ TEST_F(Program, SignalsStopItAndASecondOneEndsIt) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const pid_t child = start_tracing();
     kill(child, signal);
-    const Outcome outcome = finish(child);
-    EXPECT_EQ(outcome.status, 75) << outcome.err;
+    EXPECT_THAT(finish(child), Ends(75));
     EXPECT_TRUE(!fs::exists(path("result")) || fs::is_empty(path("result")))
         << "something half written is left";
   }
@@ -176,10 +171,8 @@ TEST_F(Program, ClosedStreamsDoNoHarm) {
   close(ends[0]);
   EXPECT_EQ(run_prepared({"schema"}, [&] { dup2(ends[1], STDOUT_FILENO); }).status, 0);
   close(ends[1]);
-  const Outcome full =
-      run_prepared({"schema"}, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
-  EXPECT_EQ(full.status, 4);
-  EXPECT_THAT(full.err, HasSubstr("standard output"));
+  EXPECT_THAT(run_prepared({"schema"}, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); }),
+              Ends(4, HasSubstr("standard output")));
   // With no stdout at all, the first file that is opened must not become it.
   const Outcome none =
       run_prepared({"guidance", write_scene_file(), "--out", path("result"), "--json"}, [] {
@@ -209,10 +202,8 @@ TEST_F(Program, LocaleChangesNothing) {
 }
 
 TEST_F(Program, TooLittleMemoryIsALimit) {
-  const Outcome wide =
-      run({"render", write_scene_file(), "--out", path("result"), "--memory", "1"});
-  EXPECT_EQ(wide.status, 5);
-  EXPECT_THAT(wide.err, HasSubstr("MiB"));
+  EXPECT_THAT(run({"render", write_scene_file(), "--out", path("result"), "--memory", "1"}),
+              Ends(5, HasSubstr("MiB")));
 #ifdef BELVEDERE_SANITIZED
   GTEST_SKIP() << "sanitizers need more address space than the rest of this test allows";
 #endif

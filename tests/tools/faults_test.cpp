@@ -104,10 +104,9 @@ TEST_F(Faults, NumbersOutOfRangeNameKeyAndRange) {
            {"camera.pitch_deg=-90.5", "-90 … 90"},
            {"air.scale_m=0", "more than 0"},
            {"terrain.synthetic.cell_m=-nan", "1 … 1000"}}) {
-    const Outcome outcome = run({"check", write_scene_file(), "--set", setting});
-    EXPECT_EQ(outcome.status, 2) << setting;
-    EXPECT_THAT(outcome.err,
-                AllOf(HasSubstr(setting.substr(0, setting.find('='))), HasSubstr(range)));
+    EXPECT_THAT(run({"check", write_scene_file(), "--set", setting}),
+                Ends(2, AllOf(HasSubstr(setting.substr(0, setting.find('='))), HasSubstr(range))))
+        << setting;
   }
 }
 
@@ -147,9 +146,7 @@ TEST_F(Faults, NodataIsFilledAndCountedUpToTheLimit) {
   for (const char* nodata : {"-9999", "-32768", "32767", "nan"}) {
     write_ascii("dem.asc", 100, nodata);
     const std::string scene = write_hills_scene(source("dem.asc", crs), strokes_only);
-    const Outcome filled = run({"check", scene});
-    EXPECT_EQ(filled.status, 0) << nodata << filled.err;
-    EXPECT_THAT(filled.err, HasSubstr("100 void cells")) << nodata;
+    EXPECT_THAT(run({"check", scene}), Ends(0, HasSubstr("100 void cells"))) << nodata;
     expect_refusal(
         scene, 3,
         AllOf(HasSubstr("dem.asc"), HasSubstr("100 of 2304"), HasSubstr("max_void_share")),
@@ -164,11 +161,10 @@ TEST_F(Faults, CoordinateSystemsAndUnitsAreConvertedOrAskedFor) {
 
   // Degrees: UTM zone 32 at 9° east. 47° north is at 5205 km.
   write_ascii("degrees.asc", 0, "", 0.001, 9.0, 46.9);
-  const Outcome degrees =
+  EXPECT_THAT(
       run({"check", write_hills_scene(source("degrees.asc", "crs = \"EPSG:4326\"\n"), strokes_only),
-           "--json"});
-  EXPECT_EQ(degrees.status, 0) << degrees.err;
-  EXPECT_THAT(degrees.out, HasSubstr("EPSG:32632"));
+           "--json"}),
+      Prints(HasSubstr("EPSG:32632")));
 
   // Feet: the same hills, so the same picture's depths.
   write_ascii("feet.asc", 0, "", 100.0, east, north - 4800.0, 1.0 / 0.3048);
@@ -198,11 +194,10 @@ TEST_F(Faults, TilesOfTwoCoordinateSystemsMeet) {
   Raster<float> other = hills(corner.x, "EPSG:32633");
   other.transform.origin_y = corner.y;
   write_raster(path("east.tif"), other);
-  const Outcome outcome =
+  EXPECT_THAT(
       run({"check", write_hills_scene(source("west.tif") + source("east.tif"), strokes_only),
-           "--json"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("EPSG:32632"));
+           "--json"}),
+      Prints(HasSubstr("EPSG:32632")));
 }
 
 TEST_F(Faults, UnknownLandCoverCodesAreListedWithCounts) {
@@ -215,11 +210,10 @@ TEST_F(Faults, UnknownLandCoverCodesAreListedWithCounts) {
   const std::string file = "[[land_cover.sources]]\nfile = \"cover.tif\"\n";
   expect_refusal(write_hills_scene(source("hills.tif"), strokes_only + cover + file), 3,
                  AllOf(HasSubstr("cover.tif"), HasSubstr("77 (7 cells)"), HasSubstr("`unknown`")));
-  const Outcome mapped =
+  EXPECT_THAT(
       run({"check", write_hills_scene(source("hills.tif"),
-                                      strokes_only + cover + "unknown = \"rock\"\n" + file)});
-  EXPECT_EQ(mapped.status, 0) << mapped.err;
-  EXPECT_THAT(mapped.err, HasSubstr("77 (7 cells)"));
+                                      strokes_only + cover + "unknown = \"rock\"\n" + file)}),
+      Ends(0, HasSubstr("77 (7 cells)")));
 }
 
 // ---- paintings
@@ -247,8 +241,7 @@ class PaintingFaults : public Faults {
 
 TEST_F(PaintingFaults, TruncatedPaintingIsFoundBeforeTheWork) {
   const std::string scene = write_painted_scene();
-  const Outcome good = run({"check", scene});
-  ASSERT_EQ(good.status, 0) << good.err;
+  ASSERT_THAT(run({"check", scene}), Ends(0));
   fs::resize_file(path("style.png"), fs::file_size(path("style.png")) / 2);
   expect_refusal(scene, 3, AllOf(HasSubstr("style.png"), Not(HasSubstr(" s)"))));
 }
@@ -298,8 +291,7 @@ TEST_F(Faults, BadColourFilesAreFoundBeforeTheWork) {
         "ocio_profile_version: 1\nroles:\n  scene_linear: lin_srgb\ncolorspaces:\n  - "
         "!<ColorSpace>\n    name: lin_srgb\n"
         "  - !<ColorSpace>\n    name: srgb\n");
-  const Outcome good = run({"check", scene(config)});
-  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_THAT(run({"check", scene(config)}), Ends(0));
   fs::remove(path("show.ocio"));
   expect_refusal(scene(config), 3, HasSubstr("show.ocio"));
 }
@@ -314,9 +306,8 @@ TEST_F(Faults, ServersThatFailAreAskedAgainAndThoseThatStallAreInputErrors) {
   };
   const test::HttpServer fails(folder_.path(), {"fail=2"});
   expect_refusal(scene(fails), 2, AllOf(HasSubstr("scene.toml:3:8"), HasSubstr("--allow-http")));
-  const Outcome retried = run({"guidance", scene(fails), "--out", path("served"), "--allow-http"});
-  EXPECT_EQ(retried.status, 0) << retried.err;
-  EXPECT_THAT(retried.err, AllOf(HasSubstr("note: "), HasSubstr("503"), HasSubstr("Retrying")));
+  EXPECT_THAT(run({"guidance", scene(fails), "--out", path("served"), "--allow-http"}),
+              Ends(0, AllOf(HasSubstr("note: "), HasSubstr("503"), HasSubstr("Retrying"))));
   ASSERT_EQ(
       run({"guidance", write_hills_scene(source("hills.tif")), "--out", path("local")}).status, 0);
   EXPECT_EQ(read_channel(path("served/guidance.exr"), "altitude.V"),
@@ -351,9 +342,8 @@ TEST_F(Faults, DataThatChangedOnItsServerIsNotGoneOnWith) {
   fs::copy_file(path("hills.tif"), path("first.tif"));
   const test::HttpServer server(folder_.path());
   const std::string scene = write_hills_scene(source(server.address("hills.tif")), strokes_only);
-  const Outcome plan =
-      run({"plan", scene, "--out", path("sheet"), "--parts", "1", "-q", "--allow-http"});
-  ASSERT_EQ(plan.status, 0) << plan.err;
+  ASSERT_THAT(run({"plan", scene, "--out", path("sheet"), "--parts", "1", "-q", "--allow-http"}),
+              Ends(0));
   Raster<float> others = hills();
   others.cells(20, 20) += 50.F;
   write_raster(path("hills.tif"), others);
@@ -361,14 +351,11 @@ TEST_F(Faults, DataThatChangedOnItsServerIsNotGoneOnWith) {
       {"part", path("sheet"), "1", "-q"},
       {"render", scene, "--resume", "--out", path("sheet"), "-q", "--allow-http"}};
   for (const auto& line : lines) {
-    const Outcome changed = run(line);
-    EXPECT_EQ(changed.status, 3) << line[0] << ": " << changed.err;
-    EXPECT_THAT(changed.err, AllOf(HasSubstr("other data"), HasSubstr("without --resume")))
+    EXPECT_THAT(run(line), Ends(3, AllOf(HasSubstr("other data"), HasSubstr("without --resume"))))
         << line[0];
   }
   fs::copy_file(path("first.tif"), path("hills.tif"), fs::copy_options::overwrite_existing);
-  const Outcome as_before = run(lines[1]);
-  EXPECT_EQ(as_before.status, 0) << as_before.err;
+  EXPECT_THAT(run(lines[1]), Ends(0));
 }
 
 // ---- two runs
@@ -382,9 +369,7 @@ TEST_F(Faults, TheSecondRunIntoAFolderEndsAtOnceAndLeavesTheFirstAlone) {
        i < 1000 && read_bytes(path("stderr")).find("building the ray tracer") == std::string::npos;
        ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  const Outcome second = run(line);
-  EXPECT_EQ(second.status, 4) << second.err;
-  EXPECT_THAT(second.err, AllOf(HasSubstr(path("result")), HasSubstr("another run")));
+  EXPECT_THAT(run(line), Ends(4, AllOf(HasSubstr(path("result")), HasSubstr("another run"))));
   EXPECT_EQ(kill(first, 0), 0) << "the first one runs on";
   kill(first, SIGINT);
   EXPECT_EQ(finish(first).status, 75);
@@ -393,9 +378,8 @@ TEST_F(Faults, TheSecondRunIntoAFolderEndsAtOnceAndLeavesTheFirstAlone) {
 // ---- light
 
 TEST_F(Faults, SunBelowTheHorizonIsAWarning) {
-  const Outcome outcome = run({"check", write_scene_file(), "--set", "sun.altitude_deg=-3"});
-  EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("below the horizon"), HasSubstr("sky")));
+  EXPECT_THAT(run({"check", write_scene_file(), "--set", "sun.altitude_deg=-3"}),
+              Ends(0, AllOf(HasSubstr("below the horizon"), HasSubstr("sky"))));
 }
 
 // ---- the machine
@@ -414,9 +398,8 @@ TEST_F(Faults, APinnedInstructionSetThatTheProcessorLacksIsALimit) {
                                    HasSubstr("\"sse4.2\""), Not(HasSubstr(" s)"))));
     EXPECT_TRUE(!fs::exists(path("result")) || fs::is_empty(path("result"))) << "something is left";
   }
-  const Outcome unknown = run({"check", scene, "--set", "sampling.instruction_set=mmx"});
-  EXPECT_EQ(unknown.status, 2);
-  EXPECT_THAT(unknown.err, AllOf(HasSubstr("mmx"), HasSubstr("sse4.2")));
+  EXPECT_THAT(run({"check", scene, "--set", "sampling.instruction_set=mmx"}),
+              Ends(2, AllOf(HasSubstr("mmx"), HasSubstr("sse4.2"))));
 
   // Both have this one: the same picture, and its header says why.
   const std::vector<std::string> pinned = {"guidance", scene, "--set",
@@ -444,13 +427,12 @@ TEST_F(Faults, FullDiskKeepsTheOldResultWhole) {
   std::vector<std::string> old;
   for (const char* file : files) old.push_back(read_bytes(fs::path(path("result")) / file));
   // A limit of file sizes stands for the full disk: here every file is too large for it.
-  const Outcome outcome =
-      run_prepared({"render", scene, "--out", path("result"), "--set", "seed=5"}, [] {
-        const rlimit bytes{8000, 8000};
-        setrlimit(RLIMIT_FSIZE, &bytes);
-      });
-  EXPECT_EQ(outcome.status, 4) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("guidance"));
+  EXPECT_THAT(run_prepared({"render", scene, "--out", path("result"), "--set", "seed=5"},
+                           [] {
+                             const rlimit bytes{8000, 8000};
+                             setrlimit(RLIMIT_FSIZE, &bytes);
+                           }),
+              Ends(4, HasSubstr("guidance")));
   for (std::size_t i = 0; i < files.size(); ++i)
     EXPECT_TRUE(read_bytes(fs::path(path("result")) / files[i]) == old[i]) << files[i];
   EXPECT_EQ(std::distance(fs::directory_iterator(path("result")), {}), 5)
@@ -460,9 +442,8 @@ TEST_F(Faults, FullDiskKeepsTheOldResultWhole) {
 TEST_F(Faults, AFolderThatCannotBeWrittenIsRefusedBeforeTheWork) {
   for (const std::string& folder :
        {std::string("/proc/self"), write("file", "in the way") + "/below"}) {
-    const Outcome outcome = run({"render", write_scene_file(), "--out", folder});
-    EXPECT_EQ(outcome.status, 4);
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr(folder), Not(HasSubstr(" s)"))));
+    EXPECT_THAT(run({"render", write_scene_file(), "--out", folder}),
+                Ends(4, AllOf(HasSubstr(folder), Not(HasSubstr(" s)")))));
   }
 }
 
@@ -511,10 +492,8 @@ TEST_F(Faults, ASheetBeyondTheMemoryIsRefusedWithTheEstimate) {
                                           "output.width=60000", "--set", "output.height=20000"};
   std::vector<std::string> arguments = {"render", write_scene_file(), "--out", path("result")};
   arguments.insert(arguments.end(), sheet.begin(), sheet.end());
-  const Outcome render = run(arguments);
-  EXPECT_EQ(render.status, 5);
-  EXPECT_THAT(render.err, AllOf(HasSubstr("60000×20000"), HasSubstr("MiB"), HasSubstr("2048 MiB"),
-                                Not(HasSubstr(" s)"))));
+  EXPECT_THAT(run(arguments), Ends(5, AllOf(HasSubstr("60000×20000"), HasSubstr("MiB"),
+                                            HasSubstr("2048 MiB"), Not(HasSubstr(" s)")))));
   EXPECT_FALSE(fs::exists(path("result")));
 }
 
@@ -530,9 +509,8 @@ TEST_F(Faults, GuidanceStreamsInTheMemoryThereIs) {
   const Outcome small = guidance("small", "24");
   ASSERT_EQ(small.status, 0) << small.err;
   EXPECT_TRUE(read_bytes(path("whole/guidance.exr")) == read_bytes(path("small/guidance.exr")));
-  const Outcome none = guidance("none", "1");
-  EXPECT_EQ(none.status, 5);
-  EXPECT_THAT(none.err, AllOf(HasSubstr("output.width"), Not(HasSubstr(" s)"))));
+  EXPECT_THAT(guidance("none", "1"),
+              Ends(5, AllOf(HasSubstr("output.width"), Not(HasSubstr(" s)")))));
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,20 @@ struct Outcome {
   std::string out;
   std::string err;
 };
+inline void PrintTo(const Outcome& outcome, std::ostream* out) {
+  *out << "status " << outcome.status << ": " << outcome.err;
+}
+// What EXPECT_THAT expects of an outcome: its status and, where given, its messages.
+inline auto Ends(int status) { return ::testing::Field("status", &Outcome::status, status); }
+template <class M>
+auto Ends(int status, M messages) {
+  return ::testing::AllOf(Ends(status), ::testing::Field("err", &Outcome::err, messages));
+}
+// That it ends well, and its output.
+template <class M>
+auto Prints(M output) {
+  return ::testing::AllOf(Ends(0), ::testing::Field("out", &Outcome::out, output));
+}
 
 inline Raster<float> read_raster_file(const std::string& file) {
   RasterSource source;

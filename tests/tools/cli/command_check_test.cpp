@@ -14,25 +14,21 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST_F(Program, CameraUnderGroundIsAUsageError) {
-  const Outcome outcome = run({"check", write_scene_file(), "--set", "camera.position=[9000, 9000]",
-                               "--set", "camera.height_m=-900"});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("camera.height_m"), HasSubstr("below the ground")));
+  EXPECT_THAT(run({"check", write_scene_file(), "--set", "camera.position=[9000, 9000]", "--set",
+                   "camera.height_m=-900"}),
+              Ends(2, AllOf(HasSubstr("camera.height_m"), HasSubstr("below the ground"))));
 }
 
 TEST_F(Program, CheckReportsWhatItSaw) {
-  const Outcome outcome = run({"check", write_scene_file(), "--json"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"valid\": true"), HasSubstr("\"cell_m\": 200"),
-                                 HasSubstr("\"classes\": {")));
+  ASSERT_THAT(run({"check", write_scene_file(), "--json"}),
+              Prints(AllOf(HasSubstr("\"valid\": true"), HasSubstr("\"cell_m\": 200"),
+                           HasSubstr("\"classes\": {"))));
 }
 
 TEST_F(Program, CheckSaysWhatBecameOfSmallPatches) {
   const std::string scene = write_scene_file("[land_cover]\nsmallest_patch_m2 = 1e6\n");
-  const Outcome words = run({"check", scene});
-  ASSERT_EQ(words.status, 0) << words.err;
-  EXPECT_THAT(words.out,
-              AllOf(HasSubstr("land cover: "), HasSubstr("before small ones were removed")));
+  ASSERT_THAT(run({"check", scene}), Prints(AllOf(HasSubstr("land cover: "),
+                                                  HasSubstr("before small ones were removed"))));
   EXPECT_THAT(run({"check", scene, "--json"}).out, HasSubstr("\"patches_before\": "));
   EXPECT_THAT(run({"check", write_scene_file()}).out, Not(HasSubstr("land cover: ")));
 }
@@ -60,11 +56,9 @@ TEST_F(Program, CheckProposesLightThatLoads) {
   ASSERT_EQ(after.status, 0) << after.err;
   EXPECT_LE(ranges_in_shade(after.out) + 2, in_shade);
 
-  const Outcome bright =
-      run({"check", write_scene_file("[sun]\nazimuth_deg = 200\naltitude_deg = 40\n"),
-           "--propose-light"});
-  ASSERT_EQ(bright.status, 0) << bright.err;
-  EXPECT_THAT(bright.out, AllOf(HasSubstr("# No range"), Not(HasSubstr("[["))));
+  ASSERT_THAT(run({"check", write_scene_file("[sun]\nazimuth_deg = 200\naltitude_deg = 40\n"),
+                   "--propose-light"}),
+              Prints(AllOf(HasSubstr("# No range"), Not(HasSubstr("[[")))));
 }
 
 TEST_F(Program, CheckNotesTheFileOfALightRegionThatIsMissing) {

@@ -15,9 +15,7 @@ TEST_F(Program, CompletionPrintsTheScript) {
   for (const std::string& shell : tools::completed_shells())
     EXPECT_EQ(run({"completion", shell}).out,
               tools::shell_completion(tools::describe_program(), shell));
-  const Outcome other = run({"completion", "csh"});
-  EXPECT_EQ(other.status, 2);
-  EXPECT_THAT(other.err, HasSubstr("bash,fish,zsh"));
+  EXPECT_THAT(run({"completion", "csh"}), Ends(2, HasSubstr("bash,fish,zsh")));
 }
 
 }  // namespace

@@ -38,12 +38,11 @@ class DeformCommand : public Program {
 TEST_F(DeformCommand, ADemBecomesADeformedDemInTheSameFrame) {
   const std::string cone = write_cone();
   const std::string out = path("out.tif");
-  const Outcome outcome = run({"deform", cone, out, "--quiet", "--viewer", "684000,5250000",
-                               "--exaggeration", "2", "--bend", "2000:10,9000:0", "--handle",
-                               "684050,5256950 radius=2900 core=900 rotate=90 raise=50"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("no folds"), HasSubstr("80 × 60 cells of 100 m"),
-                                 HasSubstr("EPSG:32632")));
+  ASSERT_THAT(run({"deform", cone, out, "--quiet", "--viewer", "684000,5250000", "--exaggeration",
+                   "2", "--bend", "2000:10,9000:0", "--handle",
+                   "684050,5256950 radius=2900 core=900 rotate=90 raise=50"}),
+              Prints(AllOf(HasSubstr("no folds"), HasSubstr("80 × 60 cells of 100 m"),
+                           HasSubstr("EPSG:32632"))));
   const Raster<float> before = read_raster_file(cone);
   const Raster<float> after = read_raster_file(out);
   EXPECT_EQ(after.transform, before.transform);
@@ -69,11 +68,10 @@ TEST_F(DeformCommand, ADemBecomesADeformedDemInTheSameFrame) {
 }
 
 TEST_F(DeformCommand, FoldsAreReportedWithTheirPlace) {
-  const Outcome outcome = run({"deform", write_cone(), path("out.tif"), "--quiet", "--handle",
-                               "684050,5256950 radius=2000 core=800 move=1900,0"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
-              HasSubstr("fold: deform.handles.0 folds the ground over itself around E 685"));
+  EXPECT_THAT(
+      run({"deform", write_cone(), path("out.tif"), "--quiet", "--handle",
+           "684050,5256950 radius=2000 core=800 move=1900,0"}),
+      Prints(HasSubstr("fold: deform.handles.0 folds the ground over itself around E 685")));
 }
 
 TEST_F(DeformCommand, SaysWherePlacesLieInThePicture) {
@@ -142,11 +140,10 @@ TEST_F(DeformCommand, ASearchedBendCanBePastedAndShowsWhatItPromises) {
   ASSERT_NE(keys, std::string::npos);
   double promised = 0.0;
   ASSERT_EQ(std::sscanf(found.out.c_str() + keys, "# Shows %lf", &promised), 1);
-  const Outcome pasted =
+  ASSERT_THAT(
       run({"deform", write("pasted.toml", read_bytes(scene) + "\n" + found.out.substr(keys)),
-           "--quiet"});
-  ASSERT_EQ(pasted.status, 0) << pasted.err;
-  EXPECT_THAT(pasted.out, HasSubstr(fmt::format("of which {:.1f} % is visible", promised)));
+           "--quiet"}),
+      Prints(HasSubstr(fmt::format("of which {:.1f} % is visible", promised))));
 }
 
 TEST_F(DeformCommand, MistakesAreUsageErrors) {
@@ -179,10 +176,9 @@ TEST_F(DeformCommand, AFoldInThePictureStopsTheRender) {
       "5000\nmove_m = [0, 4800]\n";
   const std::string scene = write_scene_file(handle);
   {
-    const Outcome outcome = run({"check", scene, "--quiet"});
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("deform.handles.0"), HasSubstr("folds the ground"),
-                                   HasSubstr("larger radius_m")));
+    EXPECT_THAT(run({"check", scene, "--quiet"}),
+                Ends(2, AllOf(HasSubstr("deform.handles.0"), HasSubstr("folds the ground"),
+                              HasSubstr("larger radius_m"))));
   }
   EXPECT_EQ(run({"check", scene, "--set", "deform.allow_folds=true"}).status, 0);
 }

@@ -40,14 +40,12 @@ class ExemplarCheck : public Program {
 };
 
 TEST_F(ExemplarCheck, TellsWhatEachClassServes) {
-  const Outcome outcome = check({"--guide", "altitude", altitude_});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
-              AllOf(HasSubstr("style.png: 160 × 120 texels, 3.3 % of them never copied"),
-                    HasSubstr("37 120"), HasSubstr("class 5: only 464 texels"),
-                    HasSubstr("class 5: no texel is farther than 8 texels"),
-                    HasSubstr("class 2: no texels at altitudes 60 to 159"),
-                    Not(HasSubstr("for this picture"))));
+  ASSERT_THAT(check({"--guide", "altitude", altitude_}),
+              Prints(AllOf(HasSubstr("style.png: 160 × 120 texels, 3.3 % of them never copied"),
+                           HasSubstr("37 120"), HasSubstr("class 5: only 464 texels"),
+                           HasSubstr("class 5: no texel is farther than 8 texels"),
+                           HasSubstr("class 2: no texels at altitudes 60 to 159"),
+                           Not(HasSubstr("for this picture")))));
 }
 
 TEST_F(ExemplarCheck, TellsWhatATargetAsksFor) {
@@ -76,10 +74,9 @@ TEST_F(ExemplarCheck, ThePageShowsPaintsAndWhereTheyAreMissing) {
   const std::string target = write_labels("target.tif", 128, 20, [](int, int) { return 2; });
   const std::string target_altitude =
       write_labels("target_altitude.tif", 128, 20, [](int x, int) { return x; });
-  const Outcome outcome =
-      check({"--guide", "altitude", altitude_, "--target", target, "--target-guide", "altitude",
-             target_altitude, "--report", path("report")});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  ASSERT_THAT(check({"--guide", "altitude", altitude_, "--target", target, "--target-guide",
+                     "altitude", target_altitude, "--report", path("report")}),
+              Ends(0));
   const std::string page = read_bytes(path("report/index.html"));
   EXPECT_THAT(page,
               AllOf(HasSubstr("\"id\": \"verdict\""), HasSubstr("class 5: only 464 texels"),
@@ -110,9 +107,7 @@ TEST_F(ExemplarCheck, ThePageShowsPaintsAndWhereTheyAreMissing) {
 TEST_F(ExemplarCheck, RefusesWhatCannotBeMeant) {
   const auto refused = [&](int status, const std::vector<std::string>& arguments,
                            const std::string& words) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, status) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(words));
+    EXPECT_THAT(run(arguments), Ends(status, HasSubstr(words)));
   };
   refused(2, {"exemplar"},
           "missing subcommand of belvedere exemplar\n  allowed: check, paint, pick, register, "
@@ -184,13 +179,11 @@ TEST_F(SceneExemplarCheck, ASceneIsJudgedByItsOwnNames) {
 }
 
 TEST_F(SceneExemplarCheck, RenderSaysWhichClassHasTooFewTexels) {
-  const Outcome outcome =
-      run({"render", write_scene(), "--set", "synthesis.enabled=true", "--set", "output.width=240",
-           "--set", "output.height=160", "--out", path("result")});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("too few texels, so strokes will repeat: "),
-                                 HasSubstr("forest (each texel serves "),
-                                 HasSubstr("768 are available)"), Not(HasSubstr("class 4"))));
+  ASSERT_THAT(run({"render", write_scene(), "--set", "synthesis.enabled=true", "--set",
+                   "output.width=240", "--set", "output.height=160", "--out", path("result")}),
+              Ends(0, AllOf(HasSubstr("too few texels, so strokes will repeat: "),
+                            HasSubstr("forest (each texel serves "),
+                            HasSubstr("768 are available)"), Not(HasSubstr("class 4")))));
 }
 
 // ---- the note before the work
@@ -198,13 +191,11 @@ TEST_F(SceneExemplarCheck, RenderSaysWhichClassHasTooFewTexels) {
 TEST_F(ExemplarCheck, SynthesizeSaysWhichClassHasTooFewTexels) {
   const std::string target =
       write_labels("target.tif", 100, 60, [](int x, int) { return x < 50 ? 1 : 5; });
-  const Outcome outcome =
-      run({"synthesize", "--picture", style_, "--label", label_, target, "--out", path("out.png")});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("too few texels"),
+  ASSERT_THAT(
+      run({"synthesize", "--picture", style_, "--label", label_, target, "--out", path("out.png")}),
+      Ends(0, AllOf(HasSubstr("too few texels"),
                     HasSubstr("class 5 (each texel serves 6 pixels; 750 texels are needed"),
-                    Not(HasSubstr("class 1"))));
+                    Not(HasSubstr("class 1")))));
   const std::string small = write_labels("small.tif", 40, 20, [](int, int) { return 5; });
   EXPECT_THAT(
       run({"synthesize", "--picture", style_, "--label", label_, small, "--out", path("out.png")})

@@ -31,10 +31,9 @@ class ExemplarPaint : public Program {
 };
 
 TEST_F(ExemplarPaint, WritesAPaintingWithAllThatIsKnownOfIt) {
-  const Outcome done = run(
-      {"exemplar", "paint", "--plan", write_plan(), "--season", "winter", "--out", path("sheet")});
-  ASSERT_EQ(done.status, 0) << done.err;
-  EXPECT_THAT(done.out, HasSubstr("minimum counts are not met"));
+  ASSERT_THAT(run({"exemplar", "paint", "--plan", write_plan(), "--season", "winter", "--out",
+                   path("sheet")}),
+              Prints(HasSubstr("minimum counts are not met")));
   for (const char* file : {"painting.tif", "ground.tif", "painting.png", "guidance.exr",
                            "sheet.toml", "coverage.json"})
     EXPECT_TRUE(std::filesystem::exists(path(std::string("sheet/") + file))) << file;
@@ -51,10 +50,9 @@ TEST_F(ExemplarPaint, WritesAPaintingWithAllThatIsKnownOfIt) {
 }
 
 TEST_F(ExemplarPaint, PaintsASceneThatCanBePaintedAgain) {
-  const Outcome done = run({"exemplar", "paint", write_scene_file(), "--season", "autumn", "--seed",
-                            "5", "--out", path("a"), "--json"});
-  ASSERT_EQ(done.status, 0) << done.err;
-  EXPECT_THAT(done.out, HasSubstr("\"by_tone_and_distance\""));
+  ASSERT_THAT(run({"exemplar", "paint", write_scene_file(), "--season", "autumn", "--seed", "5",
+                   "--out", path("a"), "--json"}),
+              Prints(HasSubstr("\"by_tone_and_distance\"")));
   EXPECT_THAT(read_bytes(path("a/scene.toml")), HasSubstr("palette = \"autumn\""));
   ASSERT_EQ(run({"exemplar", "paint", path("a/scene.toml"), "--out", path("b"), "--threads", "1",
                  "--tile", "16"},
@@ -74,8 +72,7 @@ TEST_F(ExemplarPaint, APanoramaCopiesIt) {
             "version = 1\n" + test::small_mountains +
                 "[[exemplar]]\npicture = \"a/ground.tif\"\nguidance = "
                 "\"a/guidance.exr\"\n[output]\nwidth = 96\nheight = 64\nsheet_width_mm = 96\n");
-  const Outcome done = run({"render", scene, "--out", path("copy")});
-  ASSERT_EQ(done.status, 0) << done.err;
+  ASSERT_THAT(run({"render", scene, "--out", path("copy")}), Ends(0));
   // The same view copied from itself, with the same trees on it: most pixels are their own, and the
   // others differ by little.
   const Grid<glm::vec3> copied = read_picture(path("copy/panorama.tif"));
@@ -146,12 +143,10 @@ TEST_F(ExemplarPaint, RefusesWhatDoesNotGoTogether) {
               2)
         << seed;
   EXPECT_FALSE(std::filesystem::exists(path("x/painting.tif")));
-  const Outcome unwritable = run({"exemplar", "paint", "--plan", write_plan(), "--out",
-                                  write("file", "in the way") + "/below"});
-  EXPECT_EQ(unwritable.status, 4);
-  EXPECT_THAT(unwritable.err,
-              ::testing::AllOf(HasSubstr("file/below"),
-                               ::testing::Not(HasSubstr(" s)"))));  // before any work
+  EXPECT_THAT(run({"exemplar", "paint", "--plan", write_plan(), "--out",
+                   write("file", "in the way") + "/below"}),
+              Ends(4, ::testing::AllOf(HasSubstr("file/below"),
+                                       ::testing::Not(HasSubstr(" s)")))));  // before any work
 }
 
 }  // namespace

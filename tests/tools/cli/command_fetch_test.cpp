@@ -71,8 +71,7 @@ TEST_F(FetchProgram, NewFetchesThePlaceItIsGiven) {
     return run(arguments,
                {"BELVEDERE_CACHE=" + path("cache"), "BELVEDERE_MIRROR=" + server.address("")});
   };
-  const Outcome made = propose({});
-  ASSERT_EQ(made.status, 0) << made.err;
+  ASSERT_THAT(propose({}), Ends(0));
   const std::string scene = read_bytes(path("place.toml"));
   EXPECT_THAT(scene,
               AllOf(HasSubstr("file = \"place_data/elevation.tif\""), HasSubstr("© Surveyors"),
@@ -96,18 +95,15 @@ TEST_F(FetchProgram, NewFetchesThePlaceItIsGiven) {
   EXPECT_FALSE(std::filesystem::exists(path("place_data/land_cover.tif")));
   EXPECT_EQ(run({"check", path("place.toml"), "--set", "synthesis.enabled=false"}).status, 0);
   // With local files there is nothing to fetch, and without either no data.
-  const Outcome both = propose({path("served/N47E011.tif")});
-  EXPECT_EQ(both.status, 2);
-  EXPECT_THAT(both.err, HasSubstr("--at LON,LAT"));
+  EXPECT_THAT(propose({path("served/N47E011.tif")}), Ends(2, HasSubstr("--at LON,LAT")));
   EXPECT_EQ(run({"new", "--out", path("none.toml")}).status, 2);
 }
 
 TEST_F(FetchProgram, WhatItWritesIsReadyForAScene) {
   const test::HttpServer server(path("served"));
-  const Outcome outcome = fetch({"--out", path("out")}, server.address(""));
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("elevation.tif: 61 × 61 cells of 500 m, EPSG:32632"),
-                                 HasSubstr("© Surveyors"), HasSubstr("© Lookers")));
+  ASSERT_THAT(fetch({"--out", path("out")}, server.address("")),
+              Prints(AllOf(HasSubstr("elevation.tif: 61 × 61 cells of 500 m, EPSG:32632"),
+                           HasSubstr("© Surveyors"), HasSubstr("© Lookers"))));
   // The tables down to [request], and a view.
   const std::string record = read_bytes(path("out/fetched.toml"));
   const std::string scene =
@@ -116,10 +112,8 @@ TEST_F(FetchProgram, WhatItWritesIsReadyForAScene) {
                 "[camera]\nposition_lonlat = [11.5, 47.3]\nheight_m = 4000\npitch_deg = -20\n"
                 "[synthesis]\nenabled = false\n[output]\nwidth = 96\nheight = 64\nsheet_width_mm = "
                 "96\nformats = [\"png\"]\n");
-  const Outcome check = run({"check", scene});
-  EXPECT_EQ(check.status, 0) << check.err;
-  const Outcome render = run({"render", scene, "--out", path("picture")});
-  ASSERT_EQ(render.status, 0) << render.err;
+  EXPECT_THAT(run({"check", scene}), Ends(0));
+  ASSERT_THAT(run({"render", scene, "--out", path("picture")}), Ends(0));
   // Pictures name the source of the data they show.
   EXPECT_THAT(run({"info", path("picture/panorama.png")}).out,
               AllOf(HasSubstr("© Surveyors"), HasSubstr("© Lookers"), HasSubstr("fetched 20")));
@@ -141,10 +135,9 @@ TEST_F(FetchProgram, WithoutLandCoverOnlyHeightsAreAskedFor) {
 
 TEST_F(FetchProgram, FailuresHaveTheirStatus) {
   const std::string nobody = "http://127.0.0.1:9/";  // a port without a service
-  const Outcome offline = fetch({"--out", path("out")}, nobody);
-  EXPECT_EQ(offline.status, 3);
-  EXPECT_THAT(offline.err,
-              AllOf(HasSubstr("127.0.0.1:9"), HasSubstr("network"), HasSubstr("--mirror")));
+  EXPECT_THAT(
+      fetch({"--out", path("out")}, nobody),
+      Ends(3, AllOf(HasSubstr("127.0.0.1:9"), HasSubstr("network"), HasSubstr("--mirror"))));
   EXPECT_EQ(fetch({"--out", path("out"), "--size", "much"}, nobody).status, 2);
   EXPECT_EQ(fetch({"--out", path("out"), "--size", "4000"}, nobody).status, 2);
   EXPECT_EQ(fetch({"--out", path("out"), "--source", "none"}, nobody).status, 2);

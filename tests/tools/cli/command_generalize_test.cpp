@@ -58,8 +58,7 @@ TEST_F(GeneralizeCommand, UnitWeightsKeepEveryBitPlaceAndVoid) {
   for (const double nodata : {-9999.0, -32767.0, std::nan("")}) {
     SCOPED_TRACE(nodata);
     const std::string in = write_hills("in.tif", nodata);
-    const Outcome outcome = generalize_file({in, path("out.tif"), "--global", "1,1,1,1,1"});
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    ASSERT_THAT(generalize_file({in, path("out.tif"), "--global", "1,1,1,1,1"}), Ends(0));
     const Raster<float> before = read_raster_file(in);
     const Raster<float> after = read_raster_file(path("out.tif"));
     EXPECT_EQ(after.transform, before.transform);
@@ -185,10 +184,8 @@ TEST_F(GeneralizeCommand, WhatIsWrongIsSaidByTheExitStatus) {
   const std::string out = path("out.tif");
   const auto expect = [&](int status, const std::vector<std::string>& arguments,
                           const std::string& says) {
-    const Outcome outcome = generalize_file(arguments);
-    EXPECT_EQ(outcome.status, status)
-        << fmt::format("{}", fmt::join(arguments, " ")) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(says));
+    EXPECT_THAT(generalize_file(arguments), Ends(status, HasSubstr(says)))
+        << fmt::format("{}", fmt::join(arguments, " "));
     EXPECT_FALSE(std::filesystem::exists(out));
   };
   expect(2, {in, out}, "--preset NAME");
@@ -218,19 +215,17 @@ TEST_F(GeneralizeCommand, HasTheSameBytesForAnyNumberOfThreads) {
 TEST_F(GeneralizeCommand, DegreesCountAsTheGroundTheyCover) {
   const Raster<float> geographic = hills("EPSG:4326", 0.001);
   write_raster(path("in.tif"), geographic);
-  const Outcome outcome = run({"generalize", path("in.tif"), path("out.tif"), "--change-lakes",
-                               "--preset", "smooth_slopes"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("m on the ground"),
-                                 HasSubstr("75")));  // 0.001° at 47.5° N: 75 × 111 m
+  ASSERT_THAT(run({"generalize", path("in.tif"), path("out.tif"), "--change-lakes", "--preset",
+                   "smooth_slopes"}),
+              Ends(0, AllOf(HasSubstr("m on the ground"),
+                            HasSubstr("75"))));  // 0.001° at 47.5° N: 75 × 111 m
   const Raster<float> after = read_raster_file(path("out.tif"));
   EXPECT_EQ(after.transform, geographic.transform);
   EXPECT_TRUE(info_of(path("out.tif")).geographic);
   EXPECT_NE(after.cells, geographic.cells);
-  const Outcome refused = run({"generalize", path("in.tif"), path("no.tif"), "--preset",
-                               "smooth_slopes", "--widen-valleys", "100"});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_THAT(refused.err, HasSubstr("gdalwarp"));
+  EXPECT_THAT(run({"generalize", path("in.tif"), path("no.tif"), "--preset", "smooth_slopes",
+                   "--widen-valleys", "100"}),
+              Ends(2, HasSubstr("gdalwarp")));
 }
 
 TEST_F(GeneralizeCommand, WhereTheMaskIsZeroNothingChangesWhateverActs) {
@@ -255,8 +250,7 @@ TEST_F(GeneralizeCommand, WhereTheMaskIsZeroNothingChangesWhateverActs) {
     std::vector<std::string> arguments = {path("in.tif"), path("out.tif"), "--mask",
                                           path("mask.tif")};
     arguments.insert(arguments.end(), what.begin(), what.end());
-    const Outcome outcome = generalize_file(arguments);
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    ASSERT_THAT(generalize_file(arguments), Ends(0));
     const Raster<float> out = read_raster_file(path("out.tif"));
     double changed = 0.0;
     for (const auto [x, y] : test::cells(120, 150)) {

@@ -65,10 +65,8 @@ sheet_width_mm = 400
 
 TEST_F(LabelsCommand, NamesWhatIsSeenAndSaysWhatHidesTheRest) {
   write("panorama.png", "");
-  const Outcome outcome = name({"--points", path("points.csv"), "--under", path("panorama.png")});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
-              AllOf(HasSubstr("1 of 2 names placed"), HasSubstr("1 hidden behind ground")));
+  ASSERT_THAT(name({"--points", path("points.csv"), "--under", path("panorama.png")}),
+              Prints(AllOf(HasSubstr("1 of 2 names placed"), HasSubstr("1 hidden behind ground"))));
   const std::string svg = read_bytes(path("names/labels.svg"));
   EXPECT_THAT(svg, AllOf(HasSubstr(">Mittelkogel"), Not(HasSubstr("Hinterkogel")),
                          HasSubstr("xlink:href=\"../panorama.png\"")));
@@ -79,9 +77,8 @@ TEST_F(LabelsCommand, NamesWhatIsSeenAndSaysWhatHidesTheRest) {
 }
 
 TEST_F(LabelsCommand, TheDemsOwnSummitsGoWithoutNames) {
-  const Outcome outcome = name({"--json"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"points\": 2"), HasSubstr("\"placed\": 2")))
+  ASSERT_THAT(name({"--json"}),
+              Prints(AllOf(HasSubstr("\"points\": 2"), HasSubstr("\"placed\": 2"))))
       << "the third is hidden";
   EXPECT_THAT(read_bytes(path("names/labels.svg")),
               AllOf(HasSubstr(">2000"), HasSubstr(">1200"), Not(HasSubstr(">1300"))));
@@ -104,9 +101,7 @@ TEST_F(LabelsCommand, WaysAreDrawnWithTheirProfiles) {
   write(
       "way.geojson",
       R"({"type": "Feature", "properties": {"name": "Round"}, "geometry": {"type": "LineString", "coordinates": [[11.41, 47.44], [11.44, 47.50], [11.47, 47.53]]}})");
-  const Outcome outcome = name({"--tracks", path("way.geojson")});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("Round: "));
+  ASSERT_THAT(name({"--tracks", path("way.geojson")}), Prints(HasSubstr("Round: ")));
   EXPECT_THAT(read_bytes(path("names/labels.svg")), HasSubstr("<g id=\"tracks\""));
   EXPECT_THAT(read_bytes(path("names/profile_1.svg")), HasSubstr("Round: "));
   const Grid<glm::vec3> profile = read_picture(path("names/profile_1.png"));
@@ -129,11 +124,10 @@ TEST_F(LabelsCommand, AWayElsewhereIsSaidWithBothExtents) {
 
 TEST_F(LabelsCommand, PointsElsewhereAreSaidWithBothExtents) {
   write("zero.csv", "name,lon,lat\nNull Island,0,0\n");
-  const Outcome outcome = name({"--points", path("zero.csv")});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("none of 1 points lies on the terrain"),
-                                 HasSubstr("longitude 0.00 … 0.00, latitude 0.00 … 0.00"),
-                                 HasSubstr("E 680000 … 692000"), HasSubstr("latitude 47.")));
+  EXPECT_THAT(name({"--points", path("zero.csv")}),
+              Ends(2, AllOf(HasSubstr("none of 1 points lies on the terrain"),
+                            HasSubstr("longitude 0.00 … 0.00, latitude 0.00 … 0.00"),
+                            HasSubstr("E 680000 … 692000"), HasSubstr("latitude 47."))));
   EXPECT_FALSE(std::filesystem::exists(path("names/labels.svg")));
 }
 

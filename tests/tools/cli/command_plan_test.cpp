@@ -15,8 +15,7 @@ using ::testing::HasSubstr;
 TEST_F(Program, APlannedSheetIsThatOfOneRun) {
   const std::string scene = write_scene_file("[[exemplar]]\nwidth = 240\nheight = 180\n");
   ASSERT_EQ(run({"render", scene, "-q", "--out", path("one")}).status, 0);
-  const Outcome plan = run({"plan", scene, "--out", path("many"), "--parts", "2", "-q"});
-  ASSERT_EQ(plan.status, 0) << plan.err;
+  ASSERT_THAT(run({"plan", scene, "--out", path("many"), "--parts", "2", "-q"}), Ends(0));
   const Outcome early = run({"join", path("many"), "-q"});
   EXPECT_EQ(early.status, 3);
   EXPECT_THAT(early.err, HasSubstr("missing"));
@@ -48,9 +47,7 @@ TEST_F(Program, PartsNeedAPlan) {
   for (const char* command : {"part", "join"}) {
     std::vector<std::string> line{command, path("empty")};
     if (command == std::string("part")) line.emplace_back("1");
-    const Outcome outcome = run(line);
-    EXPECT_EQ(outcome.status, 2);
-    EXPECT_THAT(outcome.err, HasSubstr("belvedere plan"));
+    EXPECT_THAT(run(line), Ends(2, HasSubstr("belvedere plan")));
   }
 }
 
@@ -67,8 +64,7 @@ TEST_F(Program, APartIsGivenAsFourNumbers) {
 TEST_F(Program, AStoppedRunGoesOn) {
   const std::string scene = write_scene_file();
   fs::create_directories(path("out/.belvedere"));
-  const Outcome outcome = run({"guidance", scene, "-q", "--resume", "--out", path("out")});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(run({"guidance", scene, "-q", "--resume", "--out", path("out")}), Ends(0));
   EXPECT_FALSE(fs::exists(path("out/.belvedere")))
       << "nothing is left of a run that came to its end";
 }

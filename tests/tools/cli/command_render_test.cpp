@@ -41,8 +41,7 @@ TEST_F(Program, GuidanceIsWrittenAndTold) {
   EXPECT_THAT(again.err, IsEmpty());
   EXPECT_THAT(again.out, IsEmpty());
   EXPECT_EQ(read_bytes(path("again/guidance.exr")), read_bytes(path("result/guidance.exr")));
-  const Outcome diff = run({"diff", path("again/guidance.exr"), path("result/guidance.exr")});
-  EXPECT_EQ(diff.status, 0) << diff.out;
+  EXPECT_THAT(run({"diff", path("again/guidance.exr"), path("result/guidance.exr")}), Ends(0));
 }
 
 TEST_F(Program, DraftIsRendered) {
@@ -58,9 +57,8 @@ TEST_F(Program, DraftIsRendered) {
 
 TEST_F(Program, UnwritableFolderIsAnOutputError) {
   write("file", "in the way");
-  const Outcome outcome = run({"guidance", write_scene_file(), "--out", path("file/result")});
-  EXPECT_EQ(outcome.status, 4);
-  EXPECT_THAT(outcome.err, HasSubstr("file"));
+  EXPECT_THAT(run({"guidance", write_scene_file(), "--out", path("file/result")}),
+              Ends(4, HasSubstr("file")));
 }
 
 TEST_F(Program, MissingFilesAreAllNamed) {

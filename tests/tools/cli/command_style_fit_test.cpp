@@ -30,11 +30,10 @@ class StyleFit : public Program {
 };
 
 TEST_F(StyleFit, WritesAStyleAndItsPage) {
-  const Outcome outcome = run({"style", "fit", write_painting(), "--classes", write_mask(), "--out",
-                               path("bands.toml"), "--report", path("report"), "--origin",
-                               "Nobody, Bands", "--licence", "CC0", "-q", "--json"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"notes\""), HasSubstr("no water")));
+  ASSERT_THAT(run({"style", "fit", write_painting(), "--classes", write_mask(), "--out",
+                   path("bands.toml"), "--report", path("report"), "--origin", "Nobody, Bands",
+                   "--licence", "CC0", "-q", "--json"}),
+              Prints(AllOf(HasSubstr("\"notes\""), HasSubstr("no water"))));
   const Style style = read_style(path("bands.toml"));
   EXPECT_EQ(style.name, "bands");
   EXPECT_EQ(style.origin, "Nobody, Bands");
@@ -54,10 +53,9 @@ TEST_F(StyleFit, TakesFarAirFromTheMask) {
 }
 
 TEST_F(StyleFit, InfersClassesWithoutAMask) {
-  const Outcome outcome =
-      run({"style", "fit", write_painting(), "--out", path("bands.toml"), "--name", "inferred"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("no mask was given"));
+  ASSERT_THAT(
+      run({"style", "fit", write_painting(), "--out", path("bands.toml"), "--name", "inferred"}),
+      Prints(HasSubstr("no mask was given")));
   const Style style = read_style(path("bands.toml"));
   EXPECT_EQ(style.name, "inferred");
   EXPECT_GT(style.brushwork[4].length_px, 0.0);
@@ -66,10 +64,9 @@ TEST_F(StyleFit, InfersClassesWithoutAMask) {
 TEST_F(StyleFit, MistakesAreToldBeforeAnythingIsWritten) {
   const std::string painting = write_painting();
   EXPECT_EQ(run({"style", "fit", painting, "--out", path("style.png")}).status, 2);
-  const Outcome number = run(
-      {"style", "fit", painting, "--classes", write_mask(77), "--out", path("style.toml"), "-q"});
-  EXPECT_EQ(number.status, 3);
-  EXPECT_THAT(number.err, HasSubstr("77 (3600 pixels"));
+  EXPECT_THAT(run({"style", "fit", painting, "--classes", write_mask(77), "--out",
+                   path("style.toml"), "-q"}),
+              Ends(3, HasSubstr("77 (3600 pixels")));
   EXPECT_FALSE(std::filesystem::exists(path("style.toml")));
 }
 
@@ -83,8 +80,7 @@ TEST_F(StyleFit, HiddenColoursAreNotSeen) {
       std::vector<std::string> fit = {"style", "fit",          path("cut.png"),
                                       "--out", path("c.toml"), "-q"};
       if (masked) fit.insert(fit.end(), {"--classes", write_mask()});
-      const Outcome outcome = run(fit);
-      ASSERT_EQ(outcome.status, 0) << outcome.err;
+      ASSERT_THAT(run(fit), Ends(0));
       if (masked) results.emplace_back();
       results.back() += read_bytes(path("c.toml"));
     }

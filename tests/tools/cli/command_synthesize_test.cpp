@@ -38,11 +38,9 @@ class SynthesizePaintings : public Program {
 };
 
 TEST_F(SynthesizePaintings, MasksMayBeDrawnInColours) {
-  const Outcome outcome =
-      run({"synthesize", "--picture", style_, "--label", mask("a.png", 64, 48, 20),
-           mask("b.png", 40, 40, 19), "--out", path("out.png"), "--match", path("m.exr")});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("0 is #0000ff, 1 is #ffff00"));
+  ASSERT_THAT(run({"synthesize", "--picture", style_, "--label", mask("a.png", 64, 48, 20),
+                   mask("b.png", 40, 40, 19), "--out", path("out.png"), "--match", path("m.exr")}),
+              Ends(0, HasSubstr("0 is #0000ff, 1 is #ffff00")));
   const Grid<std::uint32_t> xs = read_id_channel(path("m.exr"), "x");
   for (const auto [x, y] : test::cells(40, 40)) ASSERT_EQ(xs(x, y) <= 20, x <= 19) << x << " " << y;
 }
@@ -58,8 +56,7 @@ TEST_F(SynthesizePaintings, ExcludedTexelsAreNeverCopied) {
     std::vector<std::string> arguments = {"synthesize", "--picture", style_,  "--label",
                                           label,        target,      "--out", path("out.png")};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(run(arguments), Ends(0));
     const Grid<glm::vec3> picture = read_picture(path("out.png"));
     int count = 0;
     for (const glm::vec3& colour : picture) count += colour.x > 0.9F ? 1 : 0;
@@ -88,10 +85,9 @@ TEST_F(SynthesizePaintings, HarmonizedPaintingsHaveTheFirstOnesColours) {
       "cool.png", 64, 48, [&](int x, int y) { return glm::vec3(0.2F, 0.4F, 0.6F) + stroke(y, x); });
   const std::string label = write_labels("label.tif", 64, 48, [](int, int) { return 1; });
   const auto bluest = [&](const std::string& how) {
-    const Outcome outcome =
-        run({"synthesize", "--picture", warm, "--picture", cool, "--label", label, label, "--label",
-             label, label, "--out", path("out.png"), "--harmonize", how});
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(run({"synthesize", "--picture", warm, "--picture", cool, "--label", label, label,
+                     "--label", label, label, "--out", path("out.png"), "--harmonize", how}),
+                Ends(0));
     float max = -1.F;
     for (const glm::vec3& colour : read_picture(path("out.png")))
       max = std::max(max, colour.z - colour.x);
@@ -145,9 +141,8 @@ TEST_F(Program, SynthesizeFromImageFiles) {
         "altitude",   style_alt,   target_alt, "1.0",       "--out",     out,          "--match",
         match,        "--seed",    "3",        "--threads", threads,     "--json",     "--quiet"};
   };
-  const Outcome outcome = run(arguments(path("out.png"), path("match.exr"), "1"));
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("\"pixels_without_texel\": 0"));
+  ASSERT_THAT(run(arguments(path("out.png"), path("match.exr"), "1")),
+              Prints(HasSubstr("\"pixels_without_texel\": 0")));
   const Grid<glm::vec3> source = read_picture(style);
   const Grid<glm::vec3> out = read_picture(path("out.png"));
   const Grid<std::uint32_t> xs = read_id_channel(path("match.exr"), "x");

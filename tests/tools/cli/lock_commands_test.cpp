@@ -56,8 +56,7 @@ class Lock : public Program {
 };
 
 TEST_F(Lock, SaysWhatTheSceneWasMadeOfAndVerifyFindsItTheSame) {
-  const Outcome made = with_data({"lock", alps(), "--width", "48", "--set", "seed=5"});
-  ASSERT_EQ(made.status, 0) << made.err;
+  ASSERT_THAT(with_data({"lock", alps(), "--width", "48", "--set", "seed=5"}), Ends(0));
   const std::string text = lock_text();
   EXPECT_THAT(
       text,
@@ -99,10 +98,8 @@ TEST_F(Lock, ChangedInputsAreRefusedByAllThatAreHeldToTheLock) {
     EXPECT_FALSE(fs::exists(path("result")));
   }
   EXPECT_EQ(with_data({"verify", alps()}).status, 3);
-  const Outcome again = with_data({"lock", alps()});
-  EXPECT_EQ(again.status, 3);
-  EXPECT_THAT(again.err,
-              AllOf(HasSubstr("dem.tif: "), HasSubstr("--update"), Not(HasSubstr(" s)"))));
+  EXPECT_THAT(with_data({"lock", alps()}),
+              Ends(3, AllOf(HasSubstr("dem.tif: "), HasSubstr("--update"), Not(HasSubstr(" s)")))));
   EXPECT_EQ(lock_text(), text);
   ASSERT_EQ(with_data({"lock", alps(), "--update"}).status, 0);
   EXPECT_NE(lock_text(), text);
@@ -143,9 +140,8 @@ TEST_F(Lock, AChangedSceneAndOtherPixelsAreDifferences) {
   std::string text = lock_text();
   const std::size_t program = text.find("program = \"") + 11;
   write("alps.lock", text.replace(program, text.find('"', program) - program, "0.0.1"));
-  const Outcome older = with_data({"verify", alps(), "--json"});
-  EXPECT_EQ(older.status, 0);
-  EXPECT_THAT(older.out, AllOf(HasSubstr("\"same\": true"), HasSubstr("locked by version 0.0.1")));
+  EXPECT_THAT(with_data({"verify", alps(), "--json"}),
+              Prints(AllOf(HasSubstr("\"same\": true"), HasSubstr("locked by version 0.0.1"))));
   EXPECT_THAT(with_data({"lock", alps()}).err, HasSubstr("program: 0.0.1 in the lock"));
   const std::size_t hash = text.find("\"tone.V\" = \"") + 12;
   text[hash] = text[hash] == '0' ? '1' : '0';

@@ -55,10 +55,8 @@ class SynthesisSweep : public Program {
 };
 
 TEST_F(SynthesisSweep, EachResultIsWhatItsValuesGiveAlone) {
-  const Outcome outcome =
-      sweep("sweep", {"--sweep", "altitude=0,4", "--sweep", "seed=3,5,8", "--json"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("\"syntheses\": 6"));
+  ASSERT_THAT(sweep("sweep", {"--sweep", "altitude=0,4", "--sweep", "seed=3,5,8", "--json"}),
+              Prints(HasSubstr("\"syntheses\": 6")));
   ASSERT_EQ(sweep("alone.png", {"--seed", "8"}, "4").status, 0);
   const Grid<glm::vec3> alone = read_picture(path("alone.png"));
   EXPECT_EQ(read_picture(path("sweep/2_3.png")), alone);
@@ -133,8 +131,7 @@ TEST_F(SynthesisSweep, HasTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST_F(SynthesisSweep, TriesSizesOfTheNeighbourhood) {
-  const Outcome outcome = sweep("sizes", {"--sweep", "neighbourhood=3,7,11"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  ASSERT_THAT(sweep("sizes", {"--sweep", "neighbourhood=3,7,11"}), Ends(0));
   ASSERT_EQ(sweep("small.png", {"--neighbourhood", "3"}).status, 0);
   ASSERT_EQ(sweep("usual.png", {}).status, 0);
   EXPECT_EQ(read_picture(path("sizes/1_1.png")), read_picture(path("small.png")));
@@ -148,9 +145,7 @@ TEST_F(SynthesisSweep, RefusesWhatCannotBeMeant) {
                            const std::string& out = "sweep") {
     std::vector<std::string> arguments;
     for (const std::string& s : sweeps) arguments.insert(arguments.end(), {"--sweep", s});
-    const Outcome outcome = sweep(out, arguments);
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(words));
+    EXPECT_THAT(sweep(out, arguments), Ends(2, HasSubstr(words)));
     EXPECT_FALSE(fs::exists(path("sweep/sheet.png")));
   };
   refused({"tone=1,2"},

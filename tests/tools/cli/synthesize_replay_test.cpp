@@ -33,10 +33,9 @@ class Replay : public Program {
       return y < 3 ? 3 : x < 20 ? 2 : 1;
     });
     match_ = path("match.exr");
-    const Outcome made =
-        run({"synthesize", "--picture", style_, "--label", style_class, target_class, "--out",
-             path("made.tif"), "--match", match_, "--quiet"});
-    ASSERT_EQ(made.status, 0) << made.err;
+    ASSERT_THAT(run({"synthesize", "--picture", style_, "--label", style_class, target_class,
+                     "--out", path("made.tif"), "--match", match_, "--quiet"}),
+                Ends(0));
     exemplar_ = read_id_channel(match_, "exemplar");
     x_ = read_id_channel(match_, "x");
     y_ = read_id_channel(match_, "y");
@@ -68,9 +67,7 @@ class Replay : public Program {
 };
 
 TEST_F(Replay, TheSamePictureGivesTheSamePixels) {
-  const Outcome outcome = replay({style_}, path("again.tif"));
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("111 pixels stay black"));
+  ASSERT_THAT(replay({style_}, path("again.tif")), Ends(0, HasSubstr("111 pixels stay black")));
   EXPECT_EQ(read_picture(path("again.tif")), read_picture(path("made.tif")));
 }
 
@@ -81,8 +78,7 @@ TEST_F(Replay, SixteenBitsComeThroughExactly) {
     for (int c = 0; c < 3; ++c)
       layer[i][c] = static_cast<float>(random_index(65536, 9, static_cast<int>(i), c)) / 65535.F;
   write_tiff16(path("layer.tif"), layer, {});
-  const Outcome outcome = replay({path("layer.tif")}, path("out.tif"));
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  ASSERT_THAT(replay({path("layer.tif")}, path("out.tif")), Ends(0));
   EXPECT_EQ(read_image_info(path("out.tif")).parts.front().channels.front().type,
             ChannelType::uint16);
   const Grid<glm::vec3> source = read_picture(path("layer.tif"));
@@ -95,9 +91,7 @@ TEST_F(Replay, SixteenBitsComeThroughExactly) {
     EXPECT_EQ(out[i], expected);
   }
   // A PNG cannot hold them, and reports it.
-  const Outcome png = replay({path("layer.tif")}, path("out.png"));
-  EXPECT_EQ(png.status, 0);
-  EXPECT_THAT(png.err, HasSubstr("keeps 8"));
+  EXPECT_THAT(replay({path("layer.tif")}, path("out.png")), Ends(0, HasSubstr("keeps 8")));
 }
 
 TEST_F(Replay, OpenExrKeepsEveryChannelInItsType) {
@@ -117,8 +111,7 @@ TEST_F(Replay, OpenExrKeepsEveryChannelInItsType) {
     writer.write_rows(1, 0, height, ground);
     writer.finish();
   }
-  const Outcome outcome = replay({path("layer.exr")}, path("out.exr"));
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  ASSERT_THAT(replay({path("layer.exr")}, path("out.exr")), Ends(0));
   const ImageInfo info = read_image_info(path("out.exr"));
   ASSERT_EQ(info.parts.size(), 2U);
   for (std::size_t p = 0; p < 2; ++p) EXPECT_EQ(info.parts[p].channels, parts[p].channels);
@@ -135,9 +128,8 @@ TEST_F(Replay, OpenExrKeepsEveryChannelInItsType) {
     EXPECT_EQ(id[i], copied ? 4000000000U + static_cast<std::uint32_t>(at) : 0U);
   }
   // In a TIFF values outside 0 … 1 are clamped, with a note.
-  const Outcome tiff = replay({path("layer.exr")}, path("out.tif"));
-  EXPECT_EQ(tiff.status, 0);
-  EXPECT_THAT(tiff.err, HasSubstr("an .exr would keep them"));
+  EXPECT_THAT(replay({path("layer.exr")}, path("out.tif")),
+              Ends(0, HasSubstr("an .exr would keep them")));
 }
 
 TEST_F(Replay, SeveralPaintingsEachTakeTheirLayer) {
@@ -150,13 +142,11 @@ TEST_F(Replay, SeveralPaintingsEachTakeTheirLayer) {
   const std::string match = write_match("two.exr", 1, 3, 7, notes);
   ASSERT_EQ(replay({first, second}, path("out.tif"), match).status, 0);
   EXPECT_EQ(read_picture(path("out.tif"))[0], glm::vec3(107.F / 255.F));
-  const Outcome swapped = replay({second, first}, path("swapped.tif"), match);
-  EXPECT_EQ(swapped.status, 2);
-  EXPECT_THAT(swapped.err, AllOf(HasSubstr("second.png"), HasSubstr("4 × 8"),
-                                 HasSubstr("8 × 4, as a painting.png")));
-  const Outcome one = replay({first}, path("one.tif"), match);
-  EXPECT_EQ(one.status, 2);
-  EXPECT_THAT(one.err, HasSubstr("a painting.png, another.png"));
+  EXPECT_THAT(replay({second, first}, path("swapped.tif"), match),
+              Ends(2, AllOf(HasSubstr("second.png"), HasSubstr("4 × 8"),
+                            HasSubstr("8 × 4, as a painting.png"))));
+  EXPECT_THAT(replay({first}, path("one.tif"), match),
+              Ends(2, HasSubstr("a painting.png, another.png")));
 }
 
 TEST_F(Replay, RefusesWhatDoesNotFit) {
@@ -165,9 +155,7 @@ TEST_F(Replay, RefusesWhatDoesNotFit) {
   const auto refused = [&](int status, const std::vector<std::string>& layers,
                            const std::string& out, const std::string& match,
                            const std::string& words) {
-    const Outcome outcome = replay(layers, path(out), match);
-    EXPECT_EQ(outcome.status, status) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(words));
+    EXPECT_THAT(replay(layers, path(out), match), Ends(status, HasSubstr(words)));
     EXPECT_FALSE(fs::exists(path(out)));
   };
   refused(2, {small}, "out.tif", "", "47 × 40");
@@ -190,19 +178,17 @@ TEST_F(Replay, RefusesWhatDoesNotFit) {
           write_match("note.exr", 0, 0, 0, {{"belvedere:matched_pictures", "wide high\n"}}),
           "wide high");
   refused(3, {style_}, "out.tif", write_match("large.exr", 70000, 0, 0, {}), "of picture 70000");
-  const Outcome both = run({"synthesize", "--replay", match_, "--picture", style_, "--label",
-                            style_, style_, "--out", path("out.tif")});
-  EXPECT_EQ(both.status, 2);
-  EXPECT_THAT(both.err, AllOf(HasSubstr("--replay"), HasSubstr("--label")));
+  EXPECT_THAT(run({"synthesize", "--replay", match_, "--picture", style_, "--label", style_, style_,
+                   "--out", path("out.tif")}),
+              Ends(2, AllOf(HasSubstr("--replay"), HasSubstr("--label"))));
   const Outcome half =
       run({"synthesize", "--picture", style_, "--label", style_, "--out", path("out.tif")});
   EXPECT_EQ(half.status, 2);
   EXPECT_THAT(
       half.err,
       HasSubstr("--label: needs two files, of the painting and of the target, but --out follows"));
-  const Outcome neither = run({"synthesize", "--picture", style_, "--out", path("out.tif")});
-  EXPECT_EQ(neither.status, 2);
-  EXPECT_THAT(neither.err, HasSubstr("--label"));
+  EXPECT_THAT(run({"synthesize", "--picture", style_, "--out", path("out.tif")}),
+              Ends(2, HasSubstr("--label")));
 }
 
 }  // namespace

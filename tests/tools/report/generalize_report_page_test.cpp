@@ -138,8 +138,7 @@ TEST_F(GeneralizeReport, ItsCommandMakesTheSameTerrain) {
     for (std::string word; words >> word;)
       arguments.push_back(word == "dem.tif" || word == "out.tif" ? path(word) : word);
     fs::remove(path("out.tif"));
-    const Outcome again = run(arguments);
-    ASSERT_EQ(again.status, 0) << again.err;
+    ASSERT_THAT(run(arguments), Ends(0));
     EXPECT_TRUE(read_bytes(path("out.tif")) == first) << line[1].str();
   }
 }
@@ -168,11 +167,10 @@ TEST_F(GeneralizeReport, AFolderThatCannotBeMadeIsFoundBeforeTheWork) {
 TEST_F(GeneralizeReport, OperatorsAndProductsGoAlong) {
   for (const char* extension : {"tif", "asc"}) {
     const std::string out = path(fmt::format("result.{}", extension));
-    const Outcome outcome =
-        run({"generalize", path("dem.tif"), out, "--global", "1,1,0.5,0", "--destripe",
-             "--line-integral", "--widen-valleys", "60", "--hillshade", path("relief.tif"),
-             "--contours", path("lines.geojson"), "--contour-interval", "50"});
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    ASSERT_THAT(run({"generalize", path("dem.tif"), out, "--global", "1,1,0.5,0", "--destripe",
+                     "--line-integral", "--widen-valleys", "60", "--hillshade", path("relief.tif"),
+                     "--contours", path("lines.geojson"), "--contour-interval", "50"}),
+                Ends(0));
     RasterSource source;
     source.path = out;
     source.crs = "EPSG:32632";

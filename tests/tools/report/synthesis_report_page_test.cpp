@@ -58,8 +58,7 @@ class SynthesisReport : public Program {
 };
 
 TEST_F(SynthesisReport, ShowsEverythingAndItsPicturesLieBesideThePage) {
-  const Outcome outcome = report("report");
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  ASSERT_THAT(report("report"), Ends(0));
   const std::string page = read_bytes(path("report/index.html"));
   for (const char* id : {"overview", "figures", "classes", "costs", "field", "reuse", "worst"})
     EXPECT_THAT(page, HasSubstr(fmt::format("\"id\": \"{}\"", id)));

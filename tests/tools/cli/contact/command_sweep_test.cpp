@@ -54,10 +54,8 @@ TEST_F(Sweep, EachPictureIsTheRenderOfItsValues) {
 
 TEST_F(Sweep, WrongValuesAreRefusedBeforeTheFirstPicture) {
   const std::string file = write("s.toml", sweep_scene);
-  const Outcome outcome =
-      run({"sweep", file, "--quiet", "--set", "air.haze=0.1,7", "--out", path("out")});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("haze"));
+  EXPECT_THAT(run({"sweep", file, "--quiet", "--set", "air.haze=0.1,7", "--out", path("out")}),
+              Ends(2, HasSubstr("haze")));
   EXPECT_FALSE(std::filesystem::exists(path("out")));
   EXPECT_EQ(run({"sweep", file, "--quiet", "--set", "air.haze=0.1", "--out", path("out")}).status,
             2);

@@ -80,8 +80,7 @@ TEST_F(MakingOf, ShowsGroundLargerThanMemory) {
             "[output]\nwidth = 100\nheight = 60\nsheet_width_mm = 100\n");
   EXPECT_NE(run({"check", file}).out.find("more than memory holds"), std::string::npos);
   ASSERT_EQ(run({"render", file, "--quiet", "--out", path("one")}).status, 0);
-  const Outcome made = run({"figure", file, "--quiet", "--making", "--out", path("out")});
-  ASSERT_EQ(made.status, 0) << made.err;
+  ASSERT_THAT(run({"figure", file, "--quiet", "--making", "--out", path("out")}), Ends(0));
   EXPECT_EQ(read_picture(path("out/making_7_strokes.png")), read_picture(path("one/panorama.png")));
   // The relief shows ground, not an empty sheet: it has light and dark.
   const Grid<glm::vec3> measured = read_picture(path("out/making_1_measured.png"));
@@ -139,8 +138,7 @@ glm::ivec2 found_in(const Grid<glm::vec3>& sheet, const Grid<glm::vec3>& picture
 
 TEST_F(Figure, ShowsGuidesOfThePictureAndOfWhatItCopiesFrom) {
   const std::string file = write("s.toml", figure_scene);
-  const Outcome outcome = run({"figure", file, "--quiet", "--out", path("out")});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  ASSERT_THAT(run({"figure", file, "--quiet", "--out", path("out")}), Ends(0));
   ASSERT_EQ(run({"render", file, "--quiet", "--channels", "Z,landcover.id,altitude.V", "--out",
                  path("one")})
                 .status,

@@ -69,8 +69,7 @@ TEST_F(ExemplarPick, ServesItsPageUntilItIsInterrupted) {
           std::to_string(pair.position.x) + ", " + std::to_string(pair.position.y) + "]}");
   EXPECT_THAT(read_bytes(path("pairs.csv")), HasSubstr("\n100.5,200,"));
   kill(child, SIGINT);
-  const Outcome ended = finish(child);
-  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(finish(child), Ends(0));
   EXPECT_FALSE(test::Connection(port).is_open()) << "nothing is left running";
   // What was picked is what `register` reads.
   const Outcome outcome = run({"exemplar", "register", path("it's a painting.png"), path("dem.tif"),

@@ -52,11 +52,10 @@ class ExemplarRegister : public Program {
 };
 
 TEST_F(ExemplarRegister, WritesASceneAReportAndTrust) {
-  const Outcome outcome = run({"exemplar", "register", path("painting.png"), path("dem.tif"),
-                               "--pairs", write_pairs(), "--out", path("registered")});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("pairs.csv:7 place 5"), HasSubstr("px off"),
-                                 HasSubstr("next: belvedere guidance")));
+  ASSERT_THAT(run({"exemplar", "register", path("painting.png"), path("dem.tif"), "--pairs",
+                   write_pairs(), "--out", path("registered")}),
+              Prints(AllOf(HasSubstr("pairs.csv:7 place 5"), HasSubstr("px off"),
+                           HasSubstr("next: belvedere guidance"))));
   EXPECT_THAT(read_bytes(path("registered/registered.toml")),
               AllOf(HasSubstr("projection = \"perspective\""), HasSubstr("file = \"dem.tif\""),
                     HasSubstr("[[deform.field.places]]"), HasSubstr("width = 300")));
@@ -68,18 +67,16 @@ TEST_F(ExemplarRegister, WritesASceneAReportAndTrust) {
   EXPECT_EQ(classes.height(), trust.height());
   EXPECT_THAT(read_bytes(path("registered/index.html")), HasSubstr("Land cover"));
   // The scene is one that the program takes.
-  const Outcome checked = run({"check", path("registered/registered.toml"), "--data", path("")});
-  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(run({"check", path("registered/registered.toml"), "--data", path("")}), Ends(0));
 }
 
 TEST_F(ExemplarRegister, TellsItsFindingsToPrograms) {
-  const Outcome outcome =
+  ASSERT_THAT(
       run({"exemplar", "register", path("painting.png"), path("dem.tif"), "--pairs", write_pairs(),
-           "--out", path("r"), "--projection", "perspective", "--sigma", "1", "--json", "-q"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"sigma_px\": 1"), HasSubstr("\"wrong\": true"),
-                                 HasSubstr("\"projection\": \"perspective\""),
-                                 Not(HasSubstr("\"projection\": \"panini\""))));
+           "--out", path("r"), "--projection", "perspective", "--sigma", "1", "--json", "-q"}),
+      Prints(AllOf(HasSubstr("\"sigma_px\": 1"), HasSubstr("\"wrong\": true"),
+                   HasSubstr("\"projection\": \"perspective\""),
+                   Not(HasSubstr("\"projection\": \"panini\"")))));
 }
 
 TEST_F(ExemplarRegister, FaultsNameTheirPlace) {

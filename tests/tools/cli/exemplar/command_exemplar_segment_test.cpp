@@ -34,11 +34,10 @@ class ExemplarSegment : public Program {
 };
 
 TEST_F(ExemplarSegment, WritesAMaskOfClassesThatAnExemplarTakes) {
-  const Outcome outcome =
-      run({"exemplar", "segment", write_painting(), "--out", path("mask.png"), "--json", "-q"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"groups\""), HasSubstr("\"sky\""),
-                                 HasSubstr("\"forest\""), HasSubstr("\"pasture\"")));
+  ASSERT_THAT(
+      run({"exemplar", "segment", write_painting(), "--out", path("mask.png"), "--json", "-q"}),
+      Prints(AllOf(HasSubstr("\"groups\""), HasSubstr("\"sky\""), HasSubstr("\"forest\""),
+                   HasSubstr("\"pasture\""))));
   const Grid<std::uint16_t> mask = read_grey(path("mask.png"));
   EXPECT_EQ(mask(60, 10), 0);
   EXPECT_EQ(mask(20, 70), 4);
@@ -48,10 +47,9 @@ TEST_F(ExemplarSegment, WritesAMaskOfClassesThatAnExemplarTakes) {
       write("scene.toml",
             "version = 1\n[[exemplar]]\npicture = \"painting.png\"\nclasses = \"mask.png\"\n" +
                 test::small_mountains + "[output]\nwidth = 96\nheight = 64\n");
-  const Outcome checked = run({"exemplar", "check", scene});
-  ASSERT_EQ(checked.status, 0) << checked.err;
-  EXPECT_THAT(checked.out,
-              AllOf(HasSubstr("forest"), HasSubstr("pasture"), Not(HasSubstr("class 255"))));
+  ASSERT_THAT(
+      run({"exemplar", "check", scene}),
+      Prints(AllOf(HasSubstr("forest"), HasSubstr("pasture"), Not(HasSubstr("class 255")))));
 }
 
 TEST_F(ExemplarSegment, NumbersOfGroupsAreAtMostThoseAskedFor) {
@@ -90,10 +88,8 @@ TEST_F(ExemplarSegment, SaysHowWellItAgreesWithAMaskDrawnByHand) {
     EXPECT_GT(number(right, key), .94) << key;
   const Outcome wrong = compared(drawn("wrong.tif", 50));
   EXPECT_NEAR(number(wrong, "merged"), (.6 + 2. / 3. + 2. / 3.) / 3., .03);
-  const Outcome other =
-      compared(write_labels("size.tif", 60, 90, [](int x, int) { return x / 20; }));
-  EXPECT_EQ(other.status, 3);
-  EXPECT_THAT(other.err, HasSubstr("60 × 90"));
+  EXPECT_THAT(compared(write_labels("size.tif", 60, 90, [](int x, int) { return x / 20; })),
+              Ends(3, HasSubstr("60 × 90")));
 }
 
 // Groups of one thing are merged by clicks, a group of two things must be split first: there are as
@@ -137,9 +133,7 @@ TEST_F(ExemplarSegment, SameBytesForAnyThreads) {
 TEST_F(ExemplarSegment, BadInputIsNamed) {
   const auto refused = [&](const std::vector<std::string>& arguments, int status,
                            const std::string& word) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, status) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(word));
+    EXPECT_THAT(run(arguments), Ends(status, HasSubstr(word)));
   };
   const std::string painting = write_painting();
   refused({"exemplar", "segment", path("gone.png"), "--out", path("m.png")}, 3, "gone.png");

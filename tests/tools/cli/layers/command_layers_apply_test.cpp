@@ -67,12 +67,10 @@ class LayersApply : public Program {
 };
 
 TEST_F(LayersApply, WritesClassesColoursAndShares) {
-  const Outcome outcome =
-      run({"layers", "apply", write_layers(), "--dem", write_ramp(), "--out", path("c.tif"),
-           "--colour", path("rgb.tif"), "--shares", path("s.tif")});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("pasture"), HasSubstr("rock"), HasSubstr("snow"),
-                                 HasSubstr("altitude")));
+  ASSERT_THAT(run({"layers", "apply", write_layers(), "--dem", write_ramp(), "--out", path("c.tif"),
+                   "--colour", path("rgb.tif"), "--shares", path("s.tif")}),
+              Prints(AllOf(HasSubstr("pasture"), HasSubstr("rock"), HasSubstr("snow"),
+                           HasSubstr("altitude"))));
   const Raster<std::int32_t> classes = codes("c.tif");
   ASSERT_EQ(classes.cells.width(), 120);
   EXPECT_EQ(classes.transform, (GeoTransform{680000.0, 5260000.0, 100.0, 100.0}));
@@ -105,20 +103,18 @@ TEST_F(LayersApply, WarnsWhereTheGroundLiesOutside) {
 TEST_F(LayersApply, NothingIsWrittenWhereSomethingIsWrong) {
   const std::string dem = write_ramp();
   const auto refused = [&](const std::string& text, const std::string& words) {
-    const Outcome outcome = run({"layers", "apply", write_layers(text), "--dem", dem, "--out",
-                                 path("c.tif"), "--shares", path("s.tif")});
-    EXPECT_EQ(outcome.status, 2);
-    EXPECT_THAT(outcome.err, HasSubstr(words));
+    EXPECT_THAT(run({"layers", "apply", write_layers(text), "--dem", dem, "--out", path("c.tif"),
+                     "--shares", path("s.tif")}),
+                Ends(2, HasSubstr(words)));
     for (const char* name : {"c.tif", "s.tif", "c.tmp.tif", "s.tmp.tif", "c.legend.toml"})
       EXPECT_FALSE(std::filesystem::exists(path(name))) << name;
   };
   refused("version = 1\n[[layers]]\nname = \"a\"\nparent = \"a\"\n",
           "two.layers.toml:4:10: layer is its own ancestor: a → a");
   refused("version = 1\nlayers = []\n", "no layers");
-  const Outcome twice = run({"layers", "apply", write_layers(), "--dem", dem, "--out",
-                             path("c.tif"), "--colour", path("c.tif")});
-  EXPECT_EQ(twice.status, 2);
-  EXPECT_THAT(twice.err, HasSubstr("is also the result of --out"));
+  EXPECT_THAT(run({"layers", "apply", write_layers(), "--dem", dem, "--out", path("c.tif"),
+                   "--colour", path("c.tif")}),
+              Ends(2, HasSubstr("is also the result of --out")));
 }
 
 TEST_F(LayersApply, ThreadsChangeNoCell) {
@@ -221,8 +217,7 @@ TEST_F(LayersOfClimate, StationsAndRastersWin) {
     std::vector<std::string> arguments = {"layers", "apply", write_sunny(), "--dem",
                                           dem,      "--out", path("c.tif")};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(run(arguments), Ends(0));
     const Grid<std::int32_t> cells = codes("c.tif").cells;
     return std::count(cells.begin(), cells.end(), static_cast<int>(LandCoverClass::snow));
   };
@@ -243,10 +238,8 @@ TEST_F(LayersOfClimate, StationsAndRastersWin) {
 
 TEST_F(LayersOfClimate, GroundWithoutCoordinateSystemNeedsItsLatitude) {
   const std::string dem = write_cone("");
-  const Outcome outcome =
-      run({"layers", "apply", write_sunny(), "--dem", dem, "--out", path("c.tif")});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("--latitude"));
+  EXPECT_THAT(run({"layers", "apply", write_sunny(), "--dem", dem, "--out", path("c.tif")}),
+              Ends(2, HasSubstr("--latitude")));
   EXPECT_FALSE(std::filesystem::exists(path("c.tif")));
   const Outcome placed = run(
       {"layers", "apply", write_sunny(), "--dem", dem, "--out", path("c.tif"), "--latitude", "47"});

@@ -61,8 +61,7 @@ class LayersFitCommand : public Program {
 };
 
 TEST_F(LayersFitCommand, LearnsALandCoverMap) {
-  const Outcome outcome = fit(by_map());
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  ASSERT_THAT(fit(by_map()), Ends(0));
   const SurfaceLayers layers = read_surface_layers(path("out.layers.toml"));
   ASSERT_EQ(layers.layers.size(), 2U);
   // The larger is the ground that the other is painted on.
@@ -79,11 +78,9 @@ TEST_F(LayersFitCommand, LearnsALandCoverMap) {
 }
 
 TEST_F(LayersFitCommand, LearnsAPictureAndSaysWhatItFound) {
-  const Outcome outcome = fit({"--image", path("picture.png"), "--model", "additive"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
-              AllOf(HasSubstr("lies on the cells of the DEM"), HasSubstr("no clouds"),
-                    HasSubstr("green"), HasSubstr("brown"), HasSubstr("sun estimated")));
+  ASSERT_THAT(fit({"--image", path("picture.png"), "--model", "additive"}),
+              Prints(AllOf(HasSubstr("lies on the cells of the DEM"), HasSubstr("no clouds"),
+                           HasSubstr("green"), HasSubstr("brown"), HasSubstr("sun estimated"))));
   EXPECT_EQ(read_surface_layers(path("out.layers.toml")).model, LayerModel::additive);
 }
 
@@ -111,9 +108,7 @@ TEST_F(LayersFitCommand, ReportHoldsItsPage) {
 TEST_F(LayersFitCommand, FaultsAreSaidAndNothingIsWritten) {
   const auto fails = [&](const std::vector<std::string>& arguments, int status,
                          const std::string& words) {
-    const Outcome outcome = fit(arguments);
-    EXPECT_EQ(outcome.status, status) << words;
-    EXPECT_THAT(outcome.err, HasSubstr(words));
+    EXPECT_THAT(fit(arguments), Ends(status, HasSubstr(words))) << words;
     EXPECT_TRUE(nothing_written());
   };
   fails({}, 2, "--image");
@@ -147,9 +142,7 @@ TEST_F(LayersFitCommand, MaskedCellsAreNotLearnedFrom) {
   write_raster(path("mask.tif"), mask);
   std::vector<std::string> arguments = by_map();
   arguments.insert(arguments.end(), {"--mask", path("mask.tif")});
-  const Outcome outcome = fit(arguments);
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("50.0 % of the cells are masked"));
+  ASSERT_THAT(fit(arguments), Prints(HasSubstr("50.0 % of the cells are masked")));
   const std::string layers = read_bytes(path("out.layers.toml"));
   // Fields of rock at the foot and meadows on the summit, below the mask: not one byte changes.
   RasterSource map;
@@ -181,9 +174,7 @@ TEST_F(LayersFitCommand, AppliedToItsOwnGroundItFindsItsClasses) {
   std::vector<std::string> arguments = by_map();
   arguments.insert(arguments.end(),
                    {"--inputs", "radiation,temperature,rain,sky_view", "--model", "additive"});
-  const Outcome fitted = fit(arguments);
-  ASSERT_EQ(fitted.status, 0) << fitted.err;
-  EXPECT_THAT(fitted.out, HasSubstr("rain: from latitude"));
+  ASSERT_THAT(fit(arguments), Prints(HasSubstr("rain: from latitude")));
   const Outcome applied = run({"layers", "apply", path("out.layers.toml"), "--dem", path("dem.tif"),
                                "--out", path("c.tif"), "--shares", path("s.tif")});
   ASSERT_EQ(applied.status, 0) << applied.err;
@@ -213,9 +204,7 @@ TEST_F(LayersFitCommand, GroundWithoutCoordinateSystemNeedsItsLatitude) {
     for (int x = 0; x != size; ++x)
       dem.cells(x, y) = static_cast<float>(2500.0 - 12.0 * std::hypot(x - 40.3, y - 39.7));
   write_raster(path("dem.tif"), dem);
-  const Outcome outcome = fit({"--image", path("picture.png")});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("--latitude"));
+  EXPECT_THAT(fit({"--image", path("picture.png")}), Ends(2, HasSubstr("--latitude")));
   EXPECT_TRUE(nothing_written());
   EXPECT_EQ(fit({"--image", path("picture.png"), "--latitude", "47"}).status, 0);
   // Inputs that are not used are not computed.

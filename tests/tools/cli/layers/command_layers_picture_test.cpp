@@ -40,9 +40,8 @@ class LayersPicture : public Program {
 };
 
 TEST_F(LayersPicture, LiesOnTheGroundOfTheDem) {
-  const Outcome result = draw({"--finer", "3", "--light-from", "90"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("180×120 pixels of 33.3333 m"));
+  ASSERT_THAT(draw({"--finer", "3", "--light-from", "90"}),
+              Prints(HasSubstr("180×120 pixels of 33.3333 m")));
   RasterSource source;
   source.path = path("map.tif");
   const RasterInfo info = read_raster_info(source);
@@ -53,9 +52,7 @@ TEST_F(LayersPicture, LiesOnTheGroundOfTheDem) {
 }
 
 TEST_F(LayersPicture, WrongNumbersAreRefusedBeforeAnythingIsWritten) {
-  const Outcome result = draw({"--finer", "99"});
-  EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("1 to 16"));
+  EXPECT_THAT(draw({"--finer", "99"}), Ends(2, HasSubstr("1 to 16")));
   EXPECT_FALSE(std::filesystem::exists(path("map.tif")));
 }
 

@@ -27,17 +27,15 @@ class New : public Program {
 };
 
 TEST_F(New, WritesASceneThatIsInOrderAndRenders) {
-  const Outcome made = run({"new", write_dem(), "--out", path("scene.toml")});
-  ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_THAT(made.out, AllOf(HasSubstr("* 1. "), HasSubstr("  2. "), HasSubstr("merit"),
-                              HasSubstr("next: belvedere render")));
+  ASSERT_THAT(run({"new", write_dem(), "--out", path("scene.toml")}),
+              Prints(AllOf(HasSubstr("* 1. "), HasSubstr("  2. "), HasSubstr("merit"),
+                           HasSubstr("next: belvedere render"))));
   const std::string text = read_bytes(path("scene.toml"));
   EXPECT_THAT(text, AllOf(HasSubstr("file = \"my_dem.tif\""), HasSubstr("title = \"my dem\""),
                           HasSubstr("crs = \"EPSG:32632\"")));
-  const Outcome check = run({"check", path("scene.toml"), "--set", "synthesis.enabled=false"});
-  ASSERT_EQ(check.status, 0) << check.err;
-  EXPECT_THAT(check.out, AllOf(HasSubstr("composition: merit"), HasSubstr("valley floor seen"),
-                               Not(HasSubstr("much sky"))));
+  ASSERT_THAT(run({"check", path("scene.toml"), "--set", "synthesis.enabled=false"}),
+              Prints(AllOf(HasSubstr("composition: merit"), HasSubstr("valley floor seen"),
+                           Not(HasSubstr("much sky")))));
   const Outcome render = run({"render", path("scene.toml"), "--draft", "--out", path("out"),
                               "--set", "output.width=192", "--set", "output.height=96"});
   EXPECT_EQ(render.status, 0) << render.err;
@@ -51,17 +49,15 @@ TEST_F(New, IsTheSameForAnyThreadsAndChoosesByNumber) {
   EXPECT_EQ(read_bytes(path("one.toml")), read_bytes(path("two.toml")));
   ASSERT_EQ(run({"new", dem, "--out", path("other.toml"), "--choose", "2"}).status, 0);
   EXPECT_NE(read_bytes(path("one.toml")), read_bytes(path("other.toml")));
-  const Outcome beyond = run({"new", dem, "--out", path("none.toml"), "--choose", "9"});
-  EXPECT_EQ(beyond.status, 2);
-  EXPECT_THAT(beyond.err, HasSubstr("--choose"));
+  EXPECT_THAT(run({"new", dem, "--out", path("none.toml"), "--choose", "9"}),
+              Ends(2, HasSubstr("--choose")));
 }
 
 TEST_F(New, KeepsAFileThatIsThere) {
   const std::string dem = write_dem();
   write("mine.toml", "precious");
-  const Outcome refused = run({"new", dem, "--out", path("mine.toml")});
-  EXPECT_EQ(refused.status, 4);
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("mine.toml"), HasSubstr("--force")));
+  EXPECT_THAT(run({"new", dem, "--out", path("mine.toml")}),
+              Ends(4, AllOf(HasSubstr("mine.toml"), HasSubstr("--force"))));
   EXPECT_EQ(read_bytes(path("mine.toml")), "precious");
   EXPECT_EQ(run({"new", dem, "--out", path("mine.toml"), "--force", "--quiet"}).status, 0);
   EXPECT_THAT(read_bytes(path("mine.toml")), HasSubstr("version = 1"));
@@ -77,9 +73,8 @@ TEST_F(New, APlaceFarFromWhereItsSystemIsUsedIsDoubted) {
   raster.transform.origin_x = -1620000.0;
   raster.transform.origin_y = 438000.0;
   write_raster(path("wrong.tif"), raster);
-  const Outcome made = run({"new", path("wrong.tif"), "--out", path("wrong.toml")});
-  EXPECT_EQ(made.status, 0) << made.err;
-  EXPECT_THAT(made.err, AllOf(HasSubstr("wrong.tif: lies at 3° N 9° W"), HasSubstr("EPSG:32632")));
+  EXPECT_THAT(run({"new", path("wrong.tif"), "--out", path("wrong.toml")}),
+              Ends(0, AllOf(HasSubstr("wrong.tif: lies at 3° N 9° W"), HasSubstr("EPSG:32632"))));
 }
 
 TEST_F(New, WishesAreHeldOrRefused) {
@@ -89,9 +84,8 @@ TEST_F(New, WishesAreHeldOrRefused) {
                                  "--format", "3:1", "--include", "the peak|10.71,47.2"});
   ASSERT_EQ(requested.status, 0) << requested.err;
   EXPECT_THAT(read_bytes(path("a.toml")), HasSubstr("height = 800"));
-  const Outcome off = run({"new", dem, "--out", path("b.toml"), "--include", "Rome|12.5,41.9"});
-  EXPECT_EQ(off.status, 2);
-  EXPECT_THAT(off.err, AllOf(HasSubstr("--include"), HasSubstr("outside the data")));
+  EXPECT_THAT(run({"new", dem, "--out", path("b.toml"), "--include", "Rome|12.5,41.9"}),
+              Ends(2, AllOf(HasSubstr("--include"), HasSubstr("outside the data"))));
   EXPECT_EQ(run({"new", dem, "--out", path("c.toml"), "--towards", "up"}).status, 2);
   EXPECT_FALSE(std::filesystem::exists(path("c.toml")));
 }
@@ -103,12 +97,10 @@ TEST_F(New, RegionsThatCannotDoAreRefusedInWords) {
   Raster<float> nowhere = test::synthetic_raster(60.0, test::chain);
   nowhere.crs.clear();
   write_raster(path("nowhere.asc"), nowhere);
-  const Outcome lost = run({"new", path("nowhere.asc"), "--out", path("a.toml")});
-  EXPECT_EQ(lost.status, 3);
-  EXPECT_THAT(lost.err, HasSubstr("--crs"));
-  const Outcome given =
-      run({"new", path("nowhere.asc"), "--out", path("a.toml"), "--crs", "EPSG:32632"});
-  EXPECT_EQ(given.status, 0) << given.err;
+  EXPECT_THAT(run({"new", path("nowhere.asc"), "--out", path("a.toml")}),
+              Ends(3, HasSubstr("--crs")));
+  EXPECT_THAT(run({"new", path("nowhere.asc"), "--out", path("a.toml"), "--crs", "EPSG:32632"}),
+              Ends(0));
   EXPECT_THAT(read_bytes(path("a.toml")), HasSubstr("# the file does not state it"));
   const Outcome missing = run({"new", path("missing.tif"), "--out", path("b.toml")});
   EXPECT_EQ(missing.status, 3);
@@ -137,17 +129,13 @@ TEST_F(New, LandCoverMayBeABandOfAFileThatSaysLittle) {
   EXPECT_THAT(read_bytes(path("a.toml")),
               AllOf(HasSubstr("file = \"bands.tif\"\nband = 2"), HasSubstr("legend = \"fbfm40\"")));
   EXPECT_EQ(check().status, 0) << "the codes are those of the legend";
-  const Outcome third = propose({"--land-cover", path("bands.tif"), "--land-cover-band", "3"});
-  EXPECT_EQ(third.status, 3);
-  EXPECT_THAT(third.err, HasSubstr("has no band 3"));
+  EXPECT_THAT(propose({"--land-cover", path("bands.tif"), "--land-cover-band", "3"}),
+              Ends(3, HasSubstr("has no band 3")));
 
-  const Outcome lost = propose({"--land-cover", path("codes.asc")});
-  EXPECT_EQ(lost.status, 3);
-  EXPECT_THAT(lost.err, AllOf(HasSubstr("codes.asc"), HasSubstr("--land-cover-crs")));
-  const Outcome elsewhere =
-      propose({"--land-cover", path("codes.asc"), "--land-cover-crs", "EPSG:32611"});
-  EXPECT_EQ(elsewhere.status, 3);
-  EXPECT_THAT(elsewhere.err, HasSubstr("does not overlap"));
+  EXPECT_THAT(propose({"--land-cover", path("codes.asc")}),
+              Ends(3, AllOf(HasSubstr("codes.asc"), HasSubstr("--land-cover-crs"))));
+  EXPECT_THAT(propose({"--land-cover", path("codes.asc"), "--land-cover-crs", "EPSG:32611"}),
+              Ends(3, HasSubstr("does not overlap")));
   ASSERT_EQ(propose({"--land-cover", path("codes.asc"), "--land-cover-crs", "EPSG:32632",
                      "--land-cover-unknown", "shrub"})
                 .status,
@@ -161,11 +149,10 @@ TEST_F(New, LandCoverMayBeABandOfAFileThatSaysLittle) {
 }
 
 TEST_F(New, PicturesAreOneNumberedSheet) {
-  const Outcome made = run({"new", write_dem(), "--out", path("a.toml"), "--pictures",
-                            path("views"), "--proposals", "2", "--json"});
-  ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_THAT(made.out, AllOf(HasSubstr("\"proposals\": ["), HasSubstr("proposals.png"),
-                              HasSubstr("\"merit\": ")));
+  ASSERT_THAT(run({"new", write_dem(), "--out", path("a.toml"), "--pictures", path("views"),
+                   "--proposals", "2", "--json"}),
+              Prints(AllOf(HasSubstr("\"proposals\": ["), HasSubstr("proposals.png"),
+                           HasSubstr("\"merit\": "))));
   const Grid<glm::vec3> sheet = read_picture(path("views/proposals.png"));
   EXPECT_EQ(sheet.width(), 2 * 520 + 3 * 12);
 }
@@ -174,10 +161,8 @@ TEST_F(New, FilesElsewhereAreNamedByTheirDataFolder) {
   std::filesystem::create_directories(path("data"));
   std::filesystem::create_directories(path("scenes"));
   write_dem("data/far.tif");
-  const Outcome made =
-      run({"new", "far.tif", "--data", path("data"), "--out", path("scenes/a.toml")});
-  ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("--data " + path("data")));
+  ASSERT_THAT(run({"new", "far.tif", "--data", path("data"), "--out", path("scenes/a.toml")}),
+              Prints(HasSubstr("--data " + path("data"))));
   EXPECT_EQ(run({"check", path("scenes/a.toml"), "--data", path("data"), "--set",
                  "synthesis.enabled=false"})
                 .status,

@@ -46,10 +46,9 @@ class StudioCommand : public Program {
 };
 
 TEST_F(StudioCommand, HelpSaysWhatItDoes) {
-  const Outcome help = run({"studio", "--help"});
-  EXPECT_EQ(help.status, 0);
-  EXPECT_THAT(help.out, AllOf(HasSubstr("--port"), HasSubstr("--headless"), HasSubstr("SCENE"),
-                              HasSubstr("belvedere studio my_dem.tif")));
+  EXPECT_THAT(run({"studio", "--help"}),
+              Prints(AllOf(HasSubstr("--port"), HasSubstr("--headless"), HasSubstr("SCENE"),
+                           HasSubstr("belvedere studio my_dem.tif"))));
 }
 
 TEST_F(StudioCommand, RefusesWhatItCannotOpen) {
@@ -57,9 +56,7 @@ TEST_F(StudioCommand, RefusesWhatItCannotOpen) {
   EXPECT_EQ(none.status, 3);
   EXPECT_THAT(none.err, HasSubstr("none.toml"));
   EXPECT_EQ(run({"studio", path("none.tif"), "--headless"}).status, 3);
-  const Outcome nothing = run({"studio", "--headless"});
-  EXPECT_EQ(nothing.status, 2);
-  EXPECT_THAT(nothing.err, HasSubstr("SCENE"));
+  EXPECT_THAT(run({"studio", "--headless"}), Ends(2, HasSubstr("SCENE")));
   const Outcome wrong =
       run({"studio", write("wrong.toml", "version = 1\n[camera\n"), "--headless"});
   EXPECT_EQ(wrong.status, 2);
@@ -70,10 +67,9 @@ TEST_F(StudioCommand, RefusesWhatItCannotOpen) {
 TEST_F(StudioCommand, APortInUseIsAnError) {
   const tools::HttpServer other({.port = 0, .token = "x"},
                                 [](const tools::HttpRequest&) { return tools::HttpAnswer{}; });
-  const Outcome refused =
-      run({"studio", write_scene_file(), "--headless", "--port", std::to_string(other.port())});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("--port"), HasSubstr("in use")));
+  EXPECT_THAT(
+      run({"studio", write_scene_file(), "--headless", "--port", std::to_string(other.port())}),
+      Ends(2, AllOf(HasSubstr("--port"), HasSubstr("in use"))));
 }
 
 TEST_F(StudioCommand, ServesTheSceneUntilItIsInterrupted) {
@@ -88,8 +84,7 @@ TEST_F(StudioCommand, ServesTheSceneUntilItIsInterrupted) {
   EXPECT_THAT(reply.body, AllOf(HasSubstr("\"revision\": 1"), HasSubstr("scene.toml")));
   EXPECT_EQ(test::ask_port(port, test::http_request("GET", "/api/scene", port)).status, 403);
   kill(child, SIGINT);
-  const Outcome ended = finish(child);
-  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(finish(child), Ends(0));
   EXPECT_FALSE(test::Connection(port).is_open()) << "nothing is left running";
 }
 

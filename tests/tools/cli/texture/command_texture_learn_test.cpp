@@ -27,11 +27,10 @@ class Texture : public Program {
 };
 
 TEST_F(Texture, IsLearntAndMadeWithoutEnd) {
-  const Outcome learnt = run({"texture", "learn", write_crop(), "--types", "20", "--out",
-                              path("m.model"), "--report", path("page"), "-q", "--json"});
-  ASSERT_EQ(learnt.status, 0) << learnt.err;
-  EXPECT_THAT(learnt.out,
-              AllOf(HasSubstr("\"held_out\""), HasSubstr("\"halves\""), HasSubstr("\"trials\"")));
+  ASSERT_THAT(
+      run({"texture", "learn", write_crop(), "--types", "20", "--out", path("m.model"), "--report",
+           path("page"), "-q", "--json"}),
+      Prints(AllOf(HasSubstr("\"held_out\""), HasSubstr("\"halves\""), HasSubstr("\"trials\""))));
   EXPECT_LT(read_bytes(path("m.model")).size(), 1700U);
   EXPECT_THAT(read_bytes(path("page/index.html")),
               AllOf(HasSubstr("texture.png"), HasSubstr("halves of the crop")));
@@ -39,8 +38,7 @@ TEST_F(Texture, IsLearntAndMadeWithoutEnd) {
   const auto make = [&](const std::string& name, std::vector<std::string> options) {
     options.insert(options.begin(),
                    {"texture", "make", path("m.model"), "--out", path(name), "-q"});
-    const Outcome made = run(options);
-    EXPECT_EQ(made.status, 0) << made.err;
+    EXPECT_THAT(run(options), Ends(0));
     return read_picture(path(name));
   };
   const Grid<glm::vec3> one =
@@ -90,10 +88,9 @@ TEST_F(Texture, JoinsPicturesAndNothingElse) {
       write_picture("left.png", 72, 64, [&](int x, int y) { return colour(meadow(x, y)); });
   const std::string right =
       write_picture("right.png", 60, 64, [&](int x, int y) { return bluish(other(x, y)); });
-  const Outcome with_seam = run({"texture", "seam", left, right, "--out", path("seam.png"),
-                                 "--band-px", "12", "--report", path("page"), "-q", "--json"});
-  ASSERT_EQ(with_seam.status, 0) << with_seam.err;
-  EXPECT_THAT(with_seam.out, AllOf(HasSubstr("\"at_px\""), HasSubstr("\"before\"")));
+  ASSERT_THAT(run({"texture", "seam", left, right, "--out", path("seam.png"), "--band-px", "12",
+                   "--report", path("page"), "-q", "--json"}),
+              Prints(AllOf(HasSubstr("\"at_px\""), HasSubstr("\"before\""))));
   const Grid<glm::vec3> joined = read_picture(path("seam.png"));
   ASSERT_EQ(joined.width(), 132);
   EXPECT_THAT(read_bytes(path("page/index.html")),
@@ -128,10 +125,9 @@ TEST_F(Texture, CorrectedPicturesHaveTheColoursOfTheOther) {
   };
   const std::string red = plain("red.png", {.8F, .4F, .3F});
   const std::string blue = plain("blue.png", {.3F, .4F, .7F});
-  const Outcome outcome = run({"texture", "correct", red, "--to", blue, "--out", path("out.png"),
-                               "--regions", "1", "--report", path("page"), "--json", "-q"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"before\""), HasSubstr("\"after\"")));
+  ASSERT_THAT(run({"texture", "correct", red, "--to", blue, "--out", path("out.png"), "--regions",
+                   "1", "--report", path("page"), "--json", "-q"}),
+              Prints(AllOf(HasSubstr("\"before\""), HasSubstr("\"after\""))));
   EXPECT_THAT(read_bytes(path("page/index.html")),
               AllOf(HasSubstr("source.png"), HasSubstr("target.png"), HasSubstr("saturation")));
   EXPECT_EQ(read_picture(path("page/corrected.png")), read_picture(path("out.png")));
@@ -149,9 +145,7 @@ TEST_F(Texture, CorrectedPicturesHaveTheColoursOfTheOther) {
 TEST_F(Texture, BadInputIsNamed) {
   const auto refused = [&](const std::vector<std::string>& arguments, int status,
                            const std::string& word) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, status) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(word));
+    EXPECT_THAT(run(arguments), Ends(status, HasSubstr(word)));
   };
   const std::string crop = write_crop();
   const std::string tiny = write_picture(

@@ -35,20 +35,17 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
   const test::Composite two = test::two_textures(120, 120);
   const std::string crop = write_crop(two);
   const std::string labels = write_drawing("labels.png", two.labels);
-  const Outcome learnt =
+  ASSERT_THAT(
       run({"composite", "learn", crop, "--labels", labels, "--types", "16", "--begin", "white",
-           "--out", path("c.composite"), "--report", path("page"), "-q", "--json"});
-  ASSERT_EQ(learnt.status, 0) << learnt.err;
-  EXPECT_THAT(learnt.out,
-              AllOf(HasSubstr("\"#0000ff\""), HasSubstr("\"#ffff00\""), HasSubstr("\"profile\"")));
+           "--out", path("c.composite"), "--report", path("page"), "-q", "--json"}),
+      Prints(AllOf(HasSubstr("\"#0000ff\""), HasSubstr("\"#ffff00\""), HasSubstr("\"profile\""))));
   EXPECT_THAT(read_bytes(path("page/index.html")),
               AllOf(HasSubstr("made.png"), HasSubstr("#ffff00")));
 
   const auto make = [&](const std::string& name, std::vector<std::string> options) {
     options.insert(options.begin(),
                    {"composite", "make", path("c.composite"), "--out", path(name), "-q"});
-    const Outcome made = run(options);
-    EXPECT_EQ(made.status, 0) << made.err;
+    EXPECT_THAT(run(options), Ends(0));
     return read_picture(path(name));
   };
   const Grid<glm::vec3> one = make("one.png", {"--size", "90x70", "--threads", "1", "--map",
@@ -78,9 +75,7 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
   const auto refused = [&](std::vector<std::string> arguments, int status,
                            const std::string& word) {
     arguments.insert(arguments.begin(), {"composite", "make"});
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, status) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(word));
+    EXPECT_THAT(run(arguments), Ends(status, HasSubstr(word)));
   };
   const std::string red = write_drawing("red.png", two.labels, {1.F, 0.F, 0.F});
   refused({path("c.composite"), "--labels", red, "--out", path("x.png")}, 3, "#ff0000");
@@ -127,10 +122,8 @@ TEST_F(Composite, BadLabelsAreNamed) {
   const test::Composite two = test::two_textures(120, 120);
   const std::string crop = write_crop(two);
   const auto refused = [&](const std::string& labels, const std::string& word) {
-    const Outcome outcome =
-        run({"composite", "learn", crop, "--labels", labels, "--out", path("c.composite")});
-    EXPECT_EQ(outcome.status, 3) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(word));
+    EXPECT_THAT(run({"composite", "learn", crop, "--labels", labels, "--out", path("c.composite")}),
+                Ends(3, HasSubstr(word)));
     EXPECT_FALSE(std::filesystem::exists(path("c.composite")));
   };
   refused(write_labels("size.tif", 119, 120, [](int x, int) { return x / 60; }), "119 × 120");

@@ -62,9 +62,8 @@ class TexturePictures : public Program {
   }
   void refused(const std::vector<std::string>& arguments, int status,
                const std::string& word) const {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, status) << arguments[0] << " " << arguments[1] << ": " << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(word)) << arguments[0] << " " << arguments[1];
+    EXPECT_THAT(run(arguments), Ends(status, HasSubstr(word)))
+        << arguments[0] << arguments[1] << arguments[0] << " " << arguments[1];
     EXPECT_FALSE(std::filesystem::exists(path("x.png")));
     EXPECT_FALSE(std::filesystem::exists(path("x.model")));
   }
@@ -101,18 +100,15 @@ TEST_F(TexturePictures, WhatCannotBeReadIsNamedByEveryCommand) {
 
 TEST_F(TexturePictures, ClearPixelsAreNotPaint) {
   const std::string clear = write_clear("clear.png", 100, 64, 20);
-  const Outcome learnt = run(
-      {"texture", "learn", clear, "--types", "16", "--begin", "white", "--out", path("m.model")});
-  ASSERT_EQ(learnt.status, 0) << learnt.err;
-  EXPECT_THAT(learnt.err, HasSubstr("1280 transparent pixels"));
+  ASSERT_THAT(run({"texture", "learn", clear, "--types", "16", "--begin", "white", "--out",
+                   path("m.model")}),
+              Ends(0, HasSubstr("1280 transparent pixels")));
   refused({"texture", "learn", write_clear("most.png", 72, 64, 60), "--out", path("x.model")}, 3,
           "768 pixels that are opaque");
   refused({"texture", "seam", clear, write_meadow("good.png", 100, 64), "--out", path("x.png")}, 3,
           "1280 transparent pixels");
-  const Outcome corrected =
-      run({"texture", "correct", clear, "--to", path("good.png"), "--out", path("c.png")});
-  EXPECT_EQ(corrected.status, 0) << corrected.err;
-  EXPECT_THAT(corrected.err, HasSubstr("1280 transparent pixels of clear.png"));
+  EXPECT_THAT(run({"texture", "correct", clear, "--to", path("good.png"), "--out", path("c.png")}),
+              Ends(0, HasSubstr("1280 transparent pixels of clear.png")));
   // Transparent pixels do not influence the fill beside them: whatever their hidden colour, the
   // result is the same.
   const std::string hole = write_labels("hole.tif", 100, 64, [](int x, int y) {
@@ -129,10 +125,9 @@ TEST_F(TexturePictures, ClearPixelsAreNotPaint) {
                static_cast<char>(crop(x, y)[2]), '\xff'};
   const std::string other = write("red.png", test::make_png(100, 64, 8, 6, rows));
   const auto fill = [&](const std::string& scan, const std::string& out) {
-    const Outcome filled = run(
-        {"texture", "fill", scan, "--hole", hole, "--model", path("m.model"), "--out", path(out)});
-    EXPECT_EQ(filled.status, 0) << filled.err;
-    EXPECT_THAT(filled.err, HasSubstr("1280 transparent pixels"));
+    EXPECT_THAT(run({"texture", "fill", scan, "--hole", hole, "--model", path("m.model"), "--out",
+                     path(out)}),
+                Ends(0, HasSubstr("1280 transparent pixels")));
     return read_picture(path(out));
   };
   const Grid<glm::vec3> one = fill(clear, "one.png");
@@ -162,10 +157,9 @@ TEST_F(TexturePictures, SixteenBitsStayWhereNothingIsMade) {
     changed += after(x, y) != before(x, y) ? 1 : 0;
   }
   EXPECT_GT(changed, 400);
-  const Outcome rounded =
-      run({"texture", "fill", fine, "--hole", hole, "--model", model, "--out", path("filled.png")});
-  ASSERT_EQ(rounded.status, 0) << rounded.err;
-  EXPECT_THAT(rounded.err, AllOf(HasSubstr("fine.tif"), HasSubstr("8 bits"), HasSubstr(".tif")));
+  ASSERT_THAT(
+      run({"texture", "fill", fine, "--hole", hole, "--model", model, "--out", path("filled.png")}),
+      Ends(0, AllOf(HasSubstr("fine.tif"), HasSubstr("8 bits"), HasSubstr(".tif"))));
 
   const std::string blue = write_picture("blue.png", 80, 70, [](int x, int y) {
     return glm::vec3(.1F, .2F, .5F + .01F * static_cast<float>((x * 5 + y * 3) % 17));
@@ -181,14 +175,12 @@ TEST_F(TexturePictures, MasksThatSayNothingAreNamed) {
   const std::string model = write_model();
   const std::string crop = write_meadow("crop.png", 72, 64);
   const std::string none = write_labels("none.tif", 72, 64, [](int, int) { return 0; });
-  const Outcome filled =
-      run({"texture", "fill", crop, "--hole", none, "--model", model, "--out", path("same.png")});
-  EXPECT_EQ(filled.status, 0) << filled.err;
-  EXPECT_THAT(filled.err, HasSubstr("marks nothing"));
+  EXPECT_THAT(
+      run({"texture", "fill", crop, "--hole", none, "--model", model, "--out", path("same.png")}),
+      Ends(0, HasSubstr("marks nothing")));
   EXPECT_EQ(read_picture(path("same.png")), read_picture(crop));
-  const Outcome eroded = run({"texture", "erode", none, "--steps", "2", "--out", path("series")});
-  EXPECT_EQ(eroded.status, 0) << eroded.err;
-  EXPECT_THAT(eroded.err, HasSubstr("marks nothing"));
+  EXPECT_THAT(run({"texture", "erode", none, "--steps", "2", "--out", path("series")}),
+              Ends(0, HasSubstr("marks nothing")));
   EXPECT_THAT(
       run({"texture", "erode", none, "--label", "9", "--steps", "2", "--out", path("series")}).err,
       HasSubstr("the number 9"));
