@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/math.h"
 #include "base/parallel.h"
 #include "renderer/compose/view_measures.h"
 #include "tests/renderer/compose/synthetic_region.h"

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "renderer/image/display_conversion.h"
 #include "tests/files.h"
 #include "tests/renderer/image/random_picture.h"
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "renderer/image/image_io.h"
 #include "renderer/image/provenance.h"
 #include "tests/files.h"
 

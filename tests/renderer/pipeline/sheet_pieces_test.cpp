@@ -7,6 +7,7 @@
 #include "base/grid.h"
 #include "base/memory_limit.h"
 #include "renderer/exemplar/scan.h"
+#include "renderer/image/image_io.h"
 #include "renderer/world/scene_dem.h"
 #include "tests/files.h"
 #include "tests/grids.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/rock/rock_ground.h"  // Clang asks for the whole type
 #include "tests/files.h"
 #include "tests/paths.h"
 #include "tests/scenes.h"

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "renderer/image/display_conversion.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/rows/picture_files.h"
 #include "tests/files.h"

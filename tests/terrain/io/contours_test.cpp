@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/filter.h"
 #include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/synthetic/synthetic_plan.h"
 #include "tests/grids.h"

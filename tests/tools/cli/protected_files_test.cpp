@@ -8,6 +8,7 @@
 #include <map>
 
 #include "tests/tools/cli/small_commands.h"
+#include "tools/cli/commands.h"
 
 namespace belvedere {
 namespace {

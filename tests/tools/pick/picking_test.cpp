@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "renderer/image/image_io.h"
+#include "terrain/io/crs.h"
 #include "tests/files.h"
 #include "tests/grids.h"
 #include "tests/tools/pick/picking_world.h"

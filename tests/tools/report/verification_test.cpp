@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "renderer/image/image_io.h"
 #include "tests/files.h"
 #include "tests/http_server.h"
 
