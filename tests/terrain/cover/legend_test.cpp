@@ -61,9 +61,7 @@ TEST_F(Legends, CorineTakesItsCodesAndItsRasterNumbers) {
 }
 
 TEST_F(Legends, UnknownNamesAreErrorsWithTheNearest) {
-  const Error error = error_of([] { read_legend("nlcdd"); });
-  EXPECT_EQ(error.kind(), ErrorKind::usage);
-  EXPECT_THAT(error.what(), HasSubstr("\"nlcd\""));
+  EXPECT_THAT(test::usage_error([] { read_legend("nlcdd"); }), HasSubstr("\"nlcd\""));
   EXPECT_EQ(error_of([&] { read_legend(path("none.csv")); }).kind(), ErrorKind::input);
   EXPECT_EQ(error_of([&] { read_legend(path("none.toml")); }).kind(), ErrorKind::input);
 }

@@ -135,9 +135,7 @@ TEST_F(DemFiles, ReadsConvertsFillsAndSaysSo) {
   EXPECT_EQ(dem.cell_m(), 30.0);
 
   parameters.max_void_share = 0.004;
-  const Error error = error_of([&] { read_dem(parameters, notes); });
-  EXPECT_EQ(error.kind(), ErrorKind::input);
-  EXPECT_THAT(error.what(), HasSubstr("0.5 %"));
+  EXPECT_THAT(test::input_error([&] { read_dem(parameters, notes); }), HasSubstr("0.5 %"));
   parameters.cell_m = 1e6;
   EXPECT_EQ(error_of([&] { read_dem(parameters, notes); }).kind(), ErrorKind::usage);
 }

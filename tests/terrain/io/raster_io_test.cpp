@@ -122,9 +122,8 @@ TEST_F(RasterIo, FeetBecomeMetres) {
 
 TEST_F(RasterIo, NoCrsIsAnErrorThatNamesItsKey) {
   write_ascii("n.asc", 4, 4, 500000, 5000000, 30, [](int, int) { return "5"; });
-  const Error error = error_of([&] { choose_frame({source_of(path("n.asc"))}, "", 0.0, {}); });
-  EXPECT_EQ(error.kind(), ErrorKind::input);
-  EXPECT_THAT(error.what(), HasSubstr("`crs`"));
+  EXPECT_THAT(test::input_error([&] { choose_frame({source_of(path("n.asc"))}, "", 0.0, {}); }),
+              HasSubstr("`crs`"));
   const RasterFrame frame = choose_frame({source_of(path("n.asc"), "EPSG:32632")}, "", 0.0, {});
   EXPECT_EQ(
       error_of([&] { warp_rasters({source_of(path("n.asc"))}, frame, silent_progress()); }).kind(),
@@ -161,9 +160,8 @@ TEST_F(RasterIo, GeographicDataGetTheirUtmZone) {
   EXPECT_EQ(frame.transform.cell_x, frame.transform.cell_y);
   // 3″ are 92.66 m from north to south and 63.3 m from west to east here; the cell has their area.
   EXPECT_NEAR(frame.transform.cell_x, std::sqrt(92.66 * 63.3), 0.3);
-  const Error stretched = error_of([&] { choose_frame({source}, "EPSG:3857", 0.0, {}); });
-  EXPECT_EQ(stretched.kind(), ErrorKind::usage);
-  EXPECT_THAT(stretched.what(), HasSubstr("EPSG:32632"));
+  EXPECT_THAT(test::usage_error([&] { choose_frame({source}, "EPSG:3857", 0.0, {}); }),
+              HasSubstr("EPSG:32632"));
   EXPECT_EQ(error_of([&] { choose_frame({source}, "EPSG:4326", 0.0, {}); }).kind(),
             ErrorKind::usage);
 }

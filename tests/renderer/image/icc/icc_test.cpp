@@ -95,9 +95,7 @@ TEST(Icc, FaultsAreNamed) {
   for (const auto& [name, bytes] : files) {
     test::write_bytes(folder / name, bytes);
     const std::string path = folder / name;
-    const Error e = test::error_of([&] { read_device_profile(path); });
-    EXPECT_EQ(e.kind(), ErrorKind::input);
-    EXPECT_THAT(e.what(), testing::HasSubstr(name));
+    EXPECT_THAT(test::input_error([&] { read_device_profile(path); }), testing::HasSubstr(name));
     EXPECT_THROW(ProfileConversion({bytes.begin(), bytes.end()}), Error) << name;
   }
   const std::string cmyk = changed(16, "CMYK");
