@@ -76,9 +76,7 @@ TEST_F(Legends, CsvWithClasses) {
   EXPECT_EQ(class_of(legend, 7), water);
   const auto refused = [&](const std::string& text) {
     write_text("b.csv", text);
-    const Error error = error_of([&] { read_legend(path("b.csv")); });
-    EXPECT_EQ(error.kind(), ErrorKind::usage) << text;
-    return std::string(error.what());
+    return test::usage_error([&] { read_legend(path("b.csv")); });
   };
   EXPECT_THAT(refused("code,class\n1,forest\n2,woods\n"), HasSubstr("b.csv:3"));
   EXPECT_THAT(refused("code,class\n1,forest\n1,water\n"), HasSubstr("duplicate code"));
@@ -102,9 +100,7 @@ TEST_F(Legends, TomlWithCodes) {
   EXPECT_TRUE(legend.nodata.contains(0));
   const auto refused = [&](const std::string& text) {
     write_text("b.toml", text);
-    const Error error = error_of([&] { read_legend(path("b.toml")); });
-    EXPECT_EQ(error.kind(), ErrorKind::usage) << text;
-    return std::string(error.what());
+    return test::usage_error([&] { read_legend(path("b.toml")); });
   };
   EXPECT_THAT(refused("[codes]\n3 = \"rocks\"\n"), HasSubstr("b.toml:2:5"));
   EXPECT_THAT(refused("[codes]\n3 = \"sky\"\n"), HasSubstr("unknown class"));

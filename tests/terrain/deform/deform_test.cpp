@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/error.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "tests/grids.h"

@@ -16,6 +16,17 @@ namespace {
 
 using namespace test;
 
+std::array<int, classes> counts_around(const Plane& plane, int p, int x, int y, int radius) {
+  const Plane::Part& part = plane.parts[static_cast<std::size_t>(p)];
+  std::array<int, classes> counts{};
+  for (int j = std::max(0, y - radius); j <= std::min(part.height - 1, y + radius); ++j)
+    for (int i = std::max(0, x - radius); i <= std::min(part.width - 1, x + radius); ++i) {
+      const std::uint32_t c = class_of(plane.words[plane.index(p, i, j)]);
+      if (c != no_class) ++counts[c];
+    }
+  return counts;
+}
+
 TEST(Surroundings, AreTheCountsOfTheWindow) {
   const Plane plane = noise_plane({{150, 140}, {33, 20}}, 0, 5, true);
   for (const int radius : {2, 8}) {
@@ -26,12 +37,7 @@ TEST(Surroundings, AreTheCountsOfTheWindow) {
         for (int x = 0; x < part.width; x += 5) {
           const std::uint32_t own = class_of(plane.words[plane.index(p, x, y)]);
           if (own == no_class) continue;
-          std::array<int, classes> counts{};
-          for (int j = std::max(0, y - radius); j <= std::min(part.height - 1, y + radius); ++j)
-            for (int i = std::max(0, x - radius); i <= std::min(part.width - 1, x + radius); ++i) {
-              const std::uint32_t c = class_of(plane.words[plane.index(p, i, j)]);
-              if (c != no_class) ++counts[c];
-            }
+          const std::array<int, classes> counts = counts_around(plane, p, x, y, radius);
           const int total = counts[0] + counts[1] + counts[2];
           const Surroundings found = around[plane.index(p, x, y)];
           ASSERT_EQ(found.others, 255 * (total - counts[own]) / total) << x << ", " << y;
@@ -82,12 +88,7 @@ TEST(ClassShares, AreTheSharesOfTheWindow) {
         for (int x = 0; x < part.width; x += 5) {
           const std::uint32_t at = plane.index(p, x, y);
           if (class_of(plane.words[at]) == no_class) continue;
-          std::array<int, classes> counts{};
-          for (int j = std::max(0, y - radius); j <= std::min(part.height - 1, y + radius); ++j)
-            for (int i = std::max(0, x - radius); i <= std::min(part.width - 1, x + radius); ++i) {
-              const std::uint32_t c = class_of(plane.words[plane.index(p, i, j)]);
-              if (c != no_class) ++counts[c];
-            }
+          const std::array<int, classes> counts = counts_around(plane, p, x, y, radius);
           const double total = counts[0] + counts[1] + counts[2];
           for (std::size_t c = 0; c < classes; ++c)
             ASSERT_NEAR(shares.of(shares.numbers()[at])[c], 255.0 * counts[c] / total,
