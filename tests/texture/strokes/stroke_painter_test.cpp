@@ -52,8 +52,7 @@ TEST(StrokePainter, TreesStandUprightWhateverTheSlope) {
   Picture p = one_class(forest);
   for (auto& d : p.guidance.fall_line)
     d = glm::vec2(0.8F, 0.6F);  // a slope that falls to the right
-  const StrokeParameters parameters;
-  const auto trees = wood_strokes({p.guidance, p.ground, parameters});
+  const auto trees = wood_strokes(p.scene());
   int bodies = 0;
   for (const Stroke& s : trees) {
     if (s.gate != StrokeGate::upright) continue;
@@ -73,8 +72,7 @@ void raise(Picture& picture, float altitude_m) {
 TEST(StrokePainter, TreesAreAsTallFarAsNear) {
   Picture p = one_class(forest);
   raise(p, 1700.F);  // spruces only: the occurrence of leafy trees varies over the ground
-  const StrokeParameters parameters;
-  const auto trees = wood_strokes({p.guidance, p.ground, parameters});
+  const auto trees = wood_strokes(p.scene());
   EXPECT_NEAR(mean_height(trees, 0.F, 80.F) / mean_height(trees, 160.F, 240.F), 1.0, 0.05);
 }
 
@@ -88,7 +86,7 @@ TEST(StrokePainter, TrunksStandInRowsOnSteepSlopesAndHuddledElsewhere) {
     // Bodies are the wide upright strokes; the next in the list belongs to the same group if it is
     // a step away.
     std::vector<glm::vec2> feet;
-    for (const Stroke& s : wood_strokes({p.guidance, p.ground, p.parameters}))
+    for (const Stroke& s : wood_strokes(p.scene()))
       if (s.gate == StrokeGate::upright && s.start_width > 2.5F) feet.push_back(s.points[0]);
     int steps = 0;
     int along = 0;
@@ -111,11 +109,9 @@ TEST(StrokePainter, LowForestIsLeafyAndWarmer) {
   raise(low, 500.F);
   Picture high = one_class(forest);
   raise(high, 1700.F);
-  const StrokeParameters parameters;
   const auto warmest = [&](const Picture& p) {
     float max = -1.F;
-    for (const Stroke& s : wood_strokes({p.guidance, p.ground, parameters}))
-      max = std::max(max, s.colour.x - s.colour.z);
+    for (const Stroke& s : wood_strokes(p.scene())) max = std::max(max, s.colour.x - s.colour.z);
     return max;
   };
   EXPECT_GT(warmest(low), warmest(high) + 0.1F);  // yellow dots
@@ -123,10 +119,9 @@ TEST(StrokePainter, LowForestIsLeafyAndWarmer) {
 
 TEST(StrokePainter, TreesOfTheValleyFloorStandInGroups) {
   Picture p = one_class(valley_floor, 600, 400);
-  const StrokeParameters parameters;
   constexpr int cell = 25;
   Grid<int> counts(600 / cell, 400 / cell, 0);
-  for (const Stroke& s : grow_strokes("scattered trees", {p.guidance, p.ground, parameters}))
+  for (const Stroke& s : grow_strokes("scattered trees", p.scene()))
     if (s.gate == StrokeGate::upright && s.start_width > 1.5F)
       ++counts(std::min(599, static_cast<int>(s.points[0].x)) / cell,
                std::min(399, static_cast<int>(s.points[0].y)) / cell);
@@ -144,10 +139,9 @@ TEST(StrokePainter, TreesOfTheValleyFloorStandInGroups) {
 
 // 10 … 30 % of the strokes are of the next darker tone, so that no area is flat.
 TEST(StrokePainter, DarkerStrokesAreMixedIn) {
-  const StrokeParameters parameters;
   const auto darker_share = [&](LandCoverClass id, std::string_view kind) {
     const Picture p = one_class(id);
-    const auto strokes = grow_strokes(kind, {p.guidance, p.ground, parameters});
+    const auto strokes = grow_strokes(kind, p.scene());
     // Half a step down from the base at .5, the darker picture at .4.
     const auto dark = std::count_if(strokes.begin(), strokes.end(),
                                     [](const Stroke& s) { return s.colour.y < 0.455F; });
@@ -178,11 +172,10 @@ Picture town(float radius) {
 }
 
 TEST(StrokePainter, TownsDifferFromVillages) {
-  const StrokeParameters parameters;
   const auto widest = [&](float radius) {
     const Picture p = town(radius);
     float max = 0.F;
-    for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
+    for (const Stroke& s : town_strokes(p.scene()))
       if (s.gate == StrokeGate::surface && s.point_count == 2)
         max = std::max(max, std::abs(s.points[1].x - s.points[0].x) +
                                 (s.tip == StrokeTip::square ? 0.F : s.start_width));
@@ -212,10 +205,9 @@ TEST(StrokePainter, TheSkyIsDrawnOutLevel) {
   // A cloud in the right half: there the brush dabs, still level.
   for (const auto [x, y] : test::cells({200, 80, 280, 160}))
     p.ground.colour(x, y) = glm::vec3(0.9F);
-  const StrokeParameters parameters;
   double clear = 0.0, dabbed = 0.0;
   int clear_count = 0, dab_count = 0;
-  for (const Stroke& s : grow_strokes("sky", {p.guidance, p.ground, parameters})) {
+  for (const Stroke& s : grow_strokes("sky", p.scene())) {
     const glm::vec2 axis = s.points[3] - s.points[0];
     EXPECT_LE(std::abs(std::atan2(axis.y, axis.x)) * 57.2958F, 3.F);
     const glm::vec2 centre = 0.5F * (s.points[0] + s.points[3]);
@@ -266,10 +258,9 @@ TEST(StrokePainter, LightSideFollowsTheSun) {
 }
 
 TEST(StrokePainter, EachClassGrowsItsOwnStrokesOnly) {
-  const StrokeParameters parameters;
   for (const LandCoverClassInfo& info : land_cover_classes()) {
     const Picture p = one_class(info.id);
-    const StrokeScene scene{p.guidance, p.ground, parameters};
+    const StrokeScene scene = p.scene();
     EXPECT_EQ(wood_strokes(scene).empty(), info.id != forest) << info.name;
     EXPECT_EQ(grow_strokes("rock facets", scene).empty(), info.id != rock) << info.name;
     EXPECT_EQ(grow_strokes("water", scene).empty(), info.id != water) << info.name;
@@ -284,10 +275,9 @@ TEST(StrokePainter, RockIsPaintedDownItsPlanes) {
   Picture p = one_class(rock);
   const glm::vec2 down = glm::vec2(0.6F, 0.8F);
   for (auto& d : p.guidance.fall_line) d = down;
-  const StrokeParameters parameters;
   int along = 0;
   int all = 0;
-  for (const Stroke& s : grow_strokes("rock dabs", {p.guidance, p.ground, parameters})) {
+  for (const Stroke& s : grow_strokes("rock dabs", p.scene())) {
     const glm::vec2 axis = s.points[3] - s.points[0];
     const float cosine = std::abs(axis.x * down.x + axis.y * down.y) / std::hypot(axis.x, axis.y);
     along += cosine > std::cos(0.6F) ? 1 : 0;
@@ -298,10 +288,9 @@ TEST(StrokePainter, RockIsPaintedDownItsPlanes) {
 
 TEST(StrokePainter, BrokenColourIsSmallAndLiesEveryWay) {
   const Picture p = one_class(scree);
-  const StrokeParameters parameters;
   int steep = 0;
   int all = 0;
-  for (const Stroke& s : grow_strokes("broken colour", {p.guidance, p.ground, parameters})) {
+  for (const Stroke& s : grow_strokes("broken colour", p.scene())) {
     const glm::vec2 axis = s.points[3] - s.points[0];
     EXPECT_LT(std::hypot(axis.x, axis.y), 5.F);
     steep += angle_deg(axis, {0.F, 1.F}) < 45.0 ? 1 : 0;
@@ -400,11 +389,10 @@ TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
 TEST(StrokePainter, HousesInTheHazeTakeTheColourOfTheAir) {
   Picture p = one_class(settlement);
   p.guidance.footprint_m = Grid<float>(320, 240, 15.F);
-  const StrokeParameters parameters;
   const auto farthest = [&](float haze) {
     p.ground.haze = Grid<float>(320, 240, haze);
     float max = 0.F;
-    for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
+    for (const Stroke& s : town_strokes(p.scene()))
       if (s.tip == StrokeTip::square) max = std::max(max, std::abs(s.colour.x - 0.5F));
     return max;
   };
@@ -414,10 +402,9 @@ TEST(StrokePainter, HousesInTheHazeTakeTheColourOfTheAir) {
 
 TEST(StrokePainter, StrokesCurveSlightlyAndAreEdgedOnEitherSide) {
   const Picture p = one_class(pasture);
-  const StrokeParameters parameters;
   double bend = 0.0;
   int right = 0;
-  const auto strokes = grow_strokes("wash", {p.guidance, p.ground, parameters});
+  const auto strokes = grow_strokes("wash", p.scene());
   for (const Stroke& s : strokes) {
     const glm::vec2 chord = s.points[3] - s.points[0];
     const glm::vec2 centre = 0.5F * (s.points[1] + s.points[2]) - s.points[0];

@@ -70,21 +70,19 @@ double rowed_near(const std::vector<Stroke>& strokes, bool vertical, double pitc
 }
 
 TEST(Towns, HousesStandInRowsAlongTheGrain) {
-  const StrokeParameters parameters;
   Picture p = level(settlement);
   // 2^6.5 m hold 3 units of 20 m and a garden.
   const double pitch_px = std::exp2(6.5) / 20.0;
-  const auto strokes = [&] { return town_strokes({p.guidance, p.ground, parameters}); };
+  const auto strokes = [&] { return town_strokes(p.scene()); };
   EXPECT_GT(rowed_near(strokes(), false, pitch_px), 0.45);
   for (glm::vec2& grain : p.guidance.grain) grain = {0.F, 1.F};  // 45°
   EXPECT_LT(rowed_near(strokes(), false, pitch_px), 0.38);
 }
 
 TEST(Towns, AreNoChessboards) {
-  const StrokeParameters parameters;
   const Picture p = level(settlement);
   const double pitch_px = std::exp2(6.5) / 20.0;
-  const std::vector<Stroke> strokes = town_strokes({p.guidance, p.ground, parameters});
+  const std::vector<Stroke> strokes = town_strokes(p.scene());
   EXPECT_LT(rowed(strokes, false, pitch_px, {120.F, 100.F}, 120.F).value(), 0.3) << "rows bend";
   EXPECT_LT(rowed(strokes, true, pitch_px, {120.F, 100.F}, 120.F).value(), 0.3)
       << "houses of many rows form no line";
@@ -92,12 +90,11 @@ TEST(Towns, AreNoChessboards) {
 }
 
 TEST(Towns, HaveNoTwoHousesOnOnePlot) {
-  const StrokeParameters parameters;
   Picture p = level(settlement);
   for (const auto [x, y] : test::cells(240, 200))
     p.guidance.built(x, y) = 0.45F - 0.0005F * std::hypot(x - 120.F, y - 100.F);  // one church
   std::vector<glm::vec2> feet;
-  for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
+  for (const Stroke& s : town_strokes(p.scene()))
     if (is_wall(s)) feet.push_back(0.5F * (s.points[0] + s.points[1]));
   int too_near = 0;
   for (std::size_t a = 0; a < feet.size(); ++a)
@@ -107,13 +104,12 @@ TEST(Towns, HaveNoTwoHousesOnOnePlot) {
 }
 
 TEST(Towns, AreDenserAndLargerInTheirMiddle) {
-  const StrokeParameters parameters;
   const auto total = [&](float built) {
     Picture p = level(settlement);
     for (float& b : p.guidance.built) b = built;
     double width = 0.0;
     int count = 0;
-    for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters})) {
+    for (const Stroke& s : town_strokes(p.scene())) {
       if (!is_wall(s)) continue;
       width += std::abs(s.points[1].x - s.points[0].x);
       ++count;
@@ -128,7 +124,6 @@ TEST(Towns, AreDenserAndLargerInTheirMiddle) {
 
 // Where villages are drawn house by house most roofs are a grey rose, and red ones stand in groups.
 TEST(Towns, RedRoofsAreAccentsNearTheViewer) {
-  const StrokeParameters parameters;
   const auto red_share = [&](float metres) {
     Picture p = level(settlement);
     for (float& f : p.guidance.footprint_m) f = metres;
@@ -136,7 +131,7 @@ TEST(Towns, RedRoofsAreAccentsNearTheViewer) {
       at = {at.x * metres / 20.F, at.y * metres / 20.F, at.z};
     int red = 0;
     int all = 0;
-    for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters})) {
+    for (const Stroke& s : town_strokes(p.scene())) {
       if (s.gate != StrokeGate::surface || s.alpha != 0.95F || is_wall(s)) continue;
       red += s.colour.x > 1.6F * s.colour.y ? 1 : 0;
       ++all;
@@ -152,14 +147,13 @@ TEST(Towns, RedRoofsAreAccentsNearTheViewer) {
 
 // Lanes run between the rows of villages drawn house by house, and their parts meet.
 TEST(Towns, LanesRunBetweenRowsOfHouses) {
-  const StrokeParameters parameters;
   const auto lanes = [&](float metres, float built) {
     Picture p = level(settlement);
     for (float& f : p.guidance.footprint_m) f = metres;
     for (float& b : p.guidance.built) b = built;
     for (glm::vec3& at : p.guidance.position_m)
       at = {at.x * metres / 20.F, at.y * metres / 20.F, at.z};
-    std::vector<Stroke> found = town_strokes({p.guidance, p.ground, parameters});
+    std::vector<Stroke> found = town_strokes(p.scene());
     std::erase_if(found, [](const Stroke& s) { return s.gate != StrokeGate::same_class; });
     return found;
   };
@@ -177,7 +171,6 @@ TEST(Towns, LanesRunBetweenRowsOfHouses) {
 }
 
 TEST(Towns, EveryVillageHasItsChurchInItsMiddle) {
-  const StrokeParameters parameters;
   Picture p = level(valley_floor);
   for (const glm::ivec2 centre : {glm::ivec2(60, 60), glm::ivec2(170, 130)})
     for (int y = -12; y <= 12; ++y)
@@ -188,7 +181,7 @@ TEST(Towns, EveryVillageHasItsChurchInItsMiddle) {
         p.guidance.built(centre.x + x, centre.y + y) = 0.35F - 0.02F * away;
       }
   std::vector<glm::vec2> spires;
-  for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
+  for (const Stroke& s : town_strokes(p.scene()))
     if (is_spire(s)) spires.push_back(s.points[0]);
   ASSERT_EQ(spires.size(), 2U);
   EXPECT_NEAR(spires[0].x, 60.F, 5.F);
@@ -197,7 +190,6 @@ TEST(Towns, EveryVillageHasItsChurchInItsMiddle) {
 }
 
 TEST(Towns, OfTwoMiddlesInOneVillageTheDenserHasTheChurch) {
-  const StrokeParameters parameters;
   Picture p = level(valley_floor);
   // Two quarters 12 px apart, the right one denser; a third 40 px away.
   for (int y = 0; y < 200; ++y)
@@ -211,7 +203,7 @@ TEST(Towns, OfTwoMiddlesInOneVillageTheDenserHasTheChurch) {
       p.guidance.built(x, y) = built;
     }
   std::vector<float> spires;
-  for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
+  for (const Stroke& s : town_strokes(p.scene()))
     if (is_spire(s)) spires.push_back(s.points[0].x);
   ASSERT_EQ(spires.size(), 2U);
   EXPECT_NEAR(spires[0], 73.F, 4.F);
@@ -219,11 +211,9 @@ TEST(Towns, OfTwoMiddlesInOneVillageTheDenserHasTheChurch) {
 }
 
 TEST(Towns, FarmsAreFewAndOnGentleLowGround) {
-  const StrokeParameters parameters;
   const auto count = [&](const Picture& p) {
     int walls = 0;
-    for (const Stroke& s : grow_strokes("farms", {p.guidance, p.ground, parameters}))
-      walls += is_wall(s) ? 1 : 0;
+    for (const Stroke& s : grow_strokes("farms", p.scene())) walls += is_wall(s) ? 1 : 0;
     return walls;
   };
   Picture p = level(valley_floor, 400, 400);

@@ -40,16 +40,17 @@ TEST(WaterStrokes, StreaksLieLevelAndLightOnOpenWaterAlone) {
   }
 }
 
+double mean_length(const char* kind, const Picture& p) {
+  const std::vector<Stroke> strokes = grow_strokes(kind, p.scene());
+  double sum = 0.0;
+  for (const Stroke& s : strokes)
+    sum += static_cast<double>(glm::length(axis_of(s))) / static_cast<double>(strokes.size());
+  return sum;
+}
+
 TEST(WaterStrokes, StreaksAreShorterFarAway) {
-  const auto mean_length = [](float footprint_m) {
-    const std::vector<Stroke> streaks =
-        grow_strokes("wind streaks", lake_picture(900.F, footprint_m).scene());
-    double sum = 0.0;
-    for (const Stroke& s : streaks)
-      sum += static_cast<double>(glm::length(axis_of(s))) / static_cast<double>(streaks.size());
-    return sum;
-  };
-  EXPECT_NEAR(mean_length(56.F) / mean_length(14.F), 0.5, 0.1);
+  const auto length = [](float m) { return mean_length("wind streaks", lake_picture(900.F, m)); };
+  EXPECT_NEAR(length(56.F) / length(14.F), 0.5, 0.1);
 }
 
 TEST(WaterStrokes, CalmFrozenAndNarrowWaterHasNoStreaks) {
@@ -95,16 +96,12 @@ TEST(WaterStrokes, TheBankOfALakeIsNoFall) {
 
 // Water has long strokes, ice is dabbed.
 TEST(WaterStrokes, IceIsPaintedInShorterStrokesThanWater) {
-  const auto mean_length = [](double frozen_from_m) {
+  const auto length = [](double frozen_from_m) {
     Picture p = lake_picture();
     p.parameters.frozen_from_m = frozen_from_m;
-    const std::vector<Stroke> strokes = grow_strokes("water", p.scene());
-    double sum = 0.0;
-    for (const Stroke& s : strokes)
-      sum += static_cast<double>(glm::length(axis_of(s))) / static_cast<double>(strokes.size());
-    return sum;
+    return mean_length("water", p);
   };
-  EXPECT_LT(mean_length(900.0), 0.5 * mean_length(901.0));
+  EXPECT_LT(length(900.0), 0.5 * length(901.0));
 }
 
 // A brook runs diagonally over a wall, not down the wall's fall line.

@@ -46,8 +46,7 @@ TEST(IceFlow, FollowsTheBroadFallOfItsBed) {
     const double turn = 2.1 * (random_uniform(5, x, y) - 0.5);
     p.guidance.fall_line(x, y) = glm::vec2(std::sin(0.5 + turn), std::cos(0.5 + turn));
   }
-  const StrokeParameters parameters;
-  const StrokeScene scene{p.guidance, p.ground, parameters};
+  const StrokeScene scene = p.scene();
   const IceFlow flow = find_ice_flow(scene);
   const glm::vec2 mean(std::sin(0.5F), std::cos(0.5F));
   for (const auto [x, y] : test::cells({20, 20, 300, 220}, 10)) {
@@ -67,8 +66,7 @@ TEST(IceFlow, TurnsWithTheValley) {
   for (const auto [x, y] : test::cells(320, 240))
     p.guidance.fall_line(x, y) =
         glm::normalize(glm::vec2(static_cast<float>(y) + 20.F, -static_cast<float>(x) - 0.5F));
-  const StrokeParameters parameters;
-  const StrokeScene scene{p.guidance, p.ground, parameters};
+  const StrokeScene scene = p.scene();
   const IceFlow flow = find_ice_flow(scene);
   const auto way = trace_ice(scene, flow, {100.F, 200.F}, 5.F, 40);
   ASSERT_GT(way.size(), 30U);
@@ -81,10 +79,9 @@ TEST(IceFlow, TurnsWithTheValley) {
 
 TEST(Ice, SnowIsLaidInLongStrokes) {
   const Picture p = one_class(snow, 20.F);
-  const StrokeParameters parameters;
   double sum = 0.0;
   int count = 0;
-  for (const Stroke& s : grow_strokes("snow", {p.guidance, p.ground, parameters})) {
+  for (const Stroke& s : grow_strokes("snow", p.scene())) {
     sum += glm::length(axis_of(s));
     ++count;
   }
@@ -97,25 +94,23 @@ TEST(Ice, CrevassesLieAcrossTheFlowAndOnlyWhereIceIsTorn) {
   set_flow(p, flow);
   for (const auto [x, y] : test::cells(320, 240))
     p.guidance.position_m(x, y).y = -20.F * static_cast<float>(y);  // seen from above
-  const StrokeParameters parameters;
-  const auto torn = grow_strokes("glacier crevasses", {p.guidance, p.ground, parameters});
+  const auto torn = grow_strokes("glacier crevasses", p.scene());
   EXPECT_GT(torn.size(), 100U);
   for (const Stroke& s : torn)
     if (s.tip == StrokeTip::round) {
       EXPECT_GE(angle_deg(axis_of(s), flow), 50.0);
     }
   for (float& slope : p.guidance.slope_deg) slope = 3.F;
-  EXPECT_TRUE(grow_strokes("glacier crevasses", {p.guidance, p.ground, parameters}).empty());
+  EXPECT_TRUE(grow_strokes("glacier crevasses", p.scene()).empty());
 }
 
 // They come in fields, with intact ice between: counts over squares vary far more than for evenly
 // spread ones.
 TEST(Ice, CrevassesComeInFields) {
   const Picture p = one_class(glacier, 16.F, 900, 600);
-  const StrokeParameters parameters;
   constexpr int cell = 60;
   Grid<int> counts(900 / cell, 600 / cell, 0);
-  for (const Stroke& s : grow_strokes("glacier crevasses", {p.guidance, p.ground, parameters}))
+  for (const Stroke& s : grow_strokes("glacier crevasses", p.scene()))
     if (s.points[0].x > 0.F && s.points[0].x < 900.F && s.points[0].y > 0.F &&
         s.points[0].y < 600.F)
       ++counts(static_cast<int>(s.points[0].x) / cell, static_cast<int>(s.points[0].y) / cell);
@@ -150,8 +145,7 @@ TEST(Ice, FlowLinesAreLongAndFollowTheIce) {
   Picture p = one_class(glacier, 12.F);
   const glm::vec2 flow(0.6F, 0.8F);
   set_flow(p, flow);
-  const StrokeParameters parameters;
-  const auto lines = grow_strokes("glacier flow lines", {p.guidance, p.ground, parameters});
+  const auto lines = grow_strokes("glacier flow lines", p.scene());
   ASSERT_GT(lines.size(), 100U);
   for (const Stroke& s : lines) {
     EXPECT_GT(glm::length(axis_of(s)), 20.F);
@@ -163,10 +157,9 @@ TEST(Ice, FlowLinesAreLongAndFollowTheIce) {
 // its end and from nowhere else, wider the farther down, to where the ice ends.
 TEST(Ice, MedialMorainesBeginBelowRibs) {
   Picture p = one_class(glacier, 10.F, 320, 400);
-  const StrokeParameters parameters;
-  EXPECT_TRUE(grow_strokes("glacier moraines", {p.guidance, p.ground, parameters}).empty());
+  EXPECT_TRUE(grow_strokes("glacier moraines", p.scene()).empty());
   set_class(p, 152, 0, 168, 120, rock);
-  const auto lines = grow_strokes("glacier moraines", {p.guidance, p.ground, parameters});
+  const auto lines = grow_strokes("glacier moraines", p.scene());
   ASSERT_GT(lines.size(), 100U);
   float lowest = 0.F;
   float widest_above = 0.F;
@@ -191,13 +184,12 @@ TEST(Ice, MedialMorainesBeginBelowRibs) {
 // None begins at the margin, and none ends in firn.
 TEST(Ice, NoMorainesAtMarginsOrInFirn) {
   Picture p = one_class(glacier, 10.F, 320, 400);
-  const StrokeParameters parameters;
   set_class(p, 0, 0, 120, 400, rock);
-  EXPECT_TRUE(grow_strokes("glacier moraines", {p.guidance, p.ground, parameters}).empty());
+  EXPECT_TRUE(grow_strokes("glacier moraines", p.scene()).empty());
   Picture firn = one_class(glacier, 10.F, 320, 400);
   set_class(firn, 152, 0, 168, 120, rock);
   set_class(firn, 0, 260, 320, 400, snow);
-  EXPECT_TRUE(grow_strokes("glacier moraines", {firn.guidance, firn.ground, parameters}).empty());
+  EXPECT_TRUE(grow_strokes("glacier moraines", firn.scene()).empty());
 }
 
 // Where a steep bed tears the ice most, it breaks into blocks: more strokes, some of them square.
@@ -247,8 +239,7 @@ TEST(Ice, GlaciersAreLinedWithRubbleWhereTheyEndOnGroundNotOnSnow) {
   const auto edges = [](LandCoverClass beyond) {
     Picture p = one_class(glacier, 12.F);
     set_class(p, 160, 0, 320, 240, beyond);
-    const StrokeParameters parameters;
-    return grow_strokes("glacier edges", {p.guidance, p.ground, parameters});
+    return grow_strokes("glacier edges", p.scene());
   };
   EXPECT_TRUE(edges(snow).empty());
   const auto strokes = edges(scree);
@@ -260,9 +251,8 @@ TEST(Ice, GlaciersAreLinedWithRubbleWhereTheyEndOnGroundNotOnSnow) {
 TEST(Ice, TonguesEndBlueAndDirty) {
   Picture p = one_class(glacier, 12.F);
   set_class(p, 0, 150, 320, 240, scree);
-  const StrokeParameters parameters;
   int walls = 0, dirt = 0, rubble = 0;
-  for (const Stroke& s : grow_strokes("glacier edges", {p.guidance, p.ground, parameters})) {
+  for (const Stroke& s : grow_strokes("glacier edges", p.scene())) {
     EXPECT_GT(s.points[1].y, 150.F - 32.F) << "only at the tongue";
     const bool across = angle_deg(axis_of(s), {1.F, 0.F}) < 30.0;
     const bool blue = s.colour.b > s.colour.r + 0.05F;
