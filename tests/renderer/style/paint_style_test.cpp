@@ -31,10 +31,14 @@ int differing(const Grid<glm::vec3>& a, const Grid<glm::vec3>& b) {
   return count;
 }
 
-TEST(PaintStyle, AnyRectangleEqualsTheWhole) {
+class PaintStyle : public testing::Test {
+ protected:
   const test::StyledSheet sheet = test::make_styled_sheet();
-  const Style style = test::make_style();
+  Style style = test::make_style();
   StylePaintParameters parameters = test::make_style_parameters();
+};
+
+TEST_F(PaintStyle, AnyRectangleEqualsTheWhole) {
   parameters.pixels_per_unit = 0.6;
   parameters.contour_lines = 1.0;
   const Grid<glm::vec3> all = paint(sheet, style, parameters, {0, 0}, whole);
@@ -47,44 +51,32 @@ TEST(PaintStyle, AnyRectangleEqualsTheWhole) {
 }
 
 // Swirls are in the test above; cumulus clouds, whose forms turn the strokes, here.
-TEST(PaintStyle, AnyRectangleOfCumulusCloudsEqualsTheWhole) {
-  const test::StyledSheet sheet = test::make_styled_sheet();
-  Style style = test::make_style();
+TEST_F(PaintStyle, AnyRectangleOfCumulusCloudsEqualsTheWhole) {
   style.brushwork[static_cast<std::size_t>(LandCoverClass::sky)].level = 0.8;
   style.sky.upper_edges = 0.35;
   style.sky.clear = glm::vec3(-0.08F, 0.0F, -0.05F);
   style.sky.clear_share = 0.3;
   style.sky.changes.front().streaks = {0.3, 0.3, 0.3};
-  const StylePaintParameters parameters = test::make_style_parameters();
   const Grid<glm::vec3> all = paint(sheet, style, parameters, {0, 0}, whole);
   const int margin = style_margin_px(style, parameters);
   const PixelRect rect{130, 5, 170, 45};
   EXPECT_EQ(differing(paint_part(sheet, style, parameters, rect, margin), part_of(all, rect)), 0);
 }
 
-TEST(PaintStyle, AQuarterOfTheMarginIsTooLittle) {
-  const test::StyledSheet sheet = test::make_styled_sheet();
-  const Style style = test::make_style();
-  const StylePaintParameters parameters = test::make_style_parameters();
+TEST_F(PaintStyle, AQuarterOfTheMarginIsTooLittle) {
   const Grid<glm::vec3> all = paint(sheet, style, parameters, {0, 0}, whole);
   const PixelRect rect{140, 90, 171, 130};
   const int margin = style_margin_px(style, parameters) / 4;
   EXPECT_GT(differing(paint_part(sheet, style, parameters, rect, margin), part_of(all, rect)), 0);
 }
 
-TEST(PaintStyle, ThreadsChangeNothing) {
-  const test::StyledSheet sheet = test::make_styled_sheet();
-  const Style style = test::make_style();
-  const StylePaintParameters parameters = test::make_style_parameters();
+TEST_F(PaintStyle, ThreadsChangeNothing) {
   const Grid<glm::vec3> many = paint(sheet, style, parameters, {0, 0}, whole);
   const ThreadLimit limit(1);
   EXPECT_EQ(differing(paint(sheet, style, parameters, {0, 0}, whole), many), 0);
 }
 
-TEST(PaintStyle, WithoutSharesTheRenderStays) {
-  const test::StyledSheet sheet = test::make_styled_sheet();
-  Style style = test::make_style();
-  StylePaintParameters parameters = test::make_style_parameters();
+TEST_F(PaintStyle, WithoutSharesTheRenderStays) {
   parameters.brushwork = 0.0;
   parameters.sky = 0.0;
   parameters.palette = 0.0;
@@ -95,20 +87,14 @@ TEST(PaintStyle, WithoutSharesTheRenderStays) {
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(out[i][c], sheet.render[i][c], 2e-4);
 }
 
-TEST(PaintStyle, SeedsPaintOtherStrokes) {
-  const test::StyledSheet sheet = test::make_styled_sheet();
-  const Style style = test::make_style();
-  StylePaintParameters parameters = test::make_style_parameters();
+TEST_F(PaintStyle, SeedsPaintOtherStrokes) {
   const Grid<glm::vec3> one = paint(sheet, style, parameters, {0, 0}, whole);
   parameters.seed = 12;
   EXPECT_GT(differing(paint(sheet, style, parameters, {0, 0}, whole), one),
             static_cast<int>(one.size()) / 2);
 }
 
-TEST(PaintStyle, MistKeepsTheRendersSky) {
-  const test::StyledSheet sheet = test::make_styled_sheet();
-  const Style style = test::make_style();
-  const StylePaintParameters parameters = test::make_style_parameters();
+TEST_F(PaintStyle, MistKeepsTheRendersSky) {
   const Grid<float> veil(test::sheet_width, test::sheet_height, 1.0F);
   const StyleGround ground =
       prepare_style(style, sheet.guidance, sheet.render, veil, parameters, {0, 0}, whole);
