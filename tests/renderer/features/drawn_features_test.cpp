@@ -127,8 +127,7 @@ TEST(DrawnFeatures, BumpsOfTheGroundDoNotMakeDashes) {
   // Ripples of a metre that a low eye looks across.
   const TestGround ground([](glm::dvec2 p) { return 1.2 * std::sin(p.y / 9.0); },
                           {0.0, -3000.0, 260.0});
-  const DrawnFeatures drawn = draw(ground, 0, {{0.0, 0.0}, {30.0, 1900.0}});
-  EXPECT_EQ(drawn.lines.size(), 1U);
+  EXPECT_EQ(draw(ground, 0, {{0.0, 0.0}, {30.0, 1900.0}}).lines.size(), 1U);
 }
 
 TEST(DrawnFeatures, CountsSayWhatBecameOfEach) {

@@ -103,8 +103,7 @@ TEST(DrawnHouses, WingsHaveRoofsOfTheirOwn) {
 
 TEST(DrawnHouses, PointsBecomeHousesAndSmallOnesAreEnlarged) {
   const TestGround ground([](glm::dvec2 p) { return 0.3 * p.x; });
-  const DrawnFeatures drawn = draw_house(ground, {{0.0, 0.0}});
-  ASSERT_EQ(drawn.houses.size(), 1U);
+  ASSERT_EQ(draw_house(ground, {{0.0, 0.0}}).houses.size(), 1U);
   FeatureSet large = set_of(house_style("casing_mm = 0\n"), {house({{0.0, 0.0}})});
   large.features[0].width_mm = 2.F;
   const DrawnFeatures enlarged = draw_features(large, ground.sight(), {.px_per_mm = 5.0});

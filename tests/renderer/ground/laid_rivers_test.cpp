@@ -87,8 +87,7 @@ TEST_F(LaidRivers, RunAlongTheBottomOfTheirValley) {
 TEST_F(LaidRivers, AreWidenedWhereTheyWouldBreakIntoDotsAndUpToThreeTimes) {
   const float own = widest(laid(2.0));
   // Straight down with 50° over 1000 pixels: a pixel covers .93 m per km of height.
-  const auto near = camera_at(3000.0);
-  EXPECT_EQ(widest(laid(2.0, near.get())), own) << "some ten pixels wide as it is";
+  EXPECT_EQ(widest(laid(2.0, camera_at(3000.0).get())), own) << "some ten pixels wide as it is";
   const auto far = camera_at(60000.0);
   EXPECT_NEAR(widest(laid(0.75 * 2.0F * own / 55.2, far.get())), own, 0.01F)
       << "the minimum is below its own width";

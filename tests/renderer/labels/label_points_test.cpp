@@ -75,8 +75,7 @@ TEST_F(LabelPoints, LettersAreCountedAndNotBytes) {
 }
 
 TEST_F(LabelPoints, StrangeKindsAreSaidAndSetAsTheFirst) {
-  const std::vector<LabelPoint> points = read("name,kind,east,north\nA,spaceport,1,2\n");
-  EXPECT_EQ(points[0].kind, 0);
+  EXPECT_EQ(read("name,kind,east,north\nA,spaceport,1,2\n")[0].kind, 0);
   EXPECT_THAT(progress_.text(), HasSubstr("spaceport"));
 }
 

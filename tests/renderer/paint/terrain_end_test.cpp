@@ -18,8 +18,7 @@ TEST(TerrainEnd, StandsInAirBeforeItDissolves) {
   const TerrainEnd centre = terrain_end_at(2000.0F, 4000.0, 0.0F);
   EXPECT_NEAR(centre.air, 0.43F, 1e-6F);
   EXPECT_EQ(centre.dissolved, 0.0F) << "only the last .38 of the fade";
-  const TerrainEnd strip = terrain_end_at(760.0F, 4000.0, 0.0F);
-  EXPECT_NEAR(strip.dissolved, 0.5F, 1e-6F);
+  EXPECT_NEAR(terrain_end_at(760.0F, 4000.0, 0.0F).dissolved, 0.5F, 1e-6F);
   const TerrainEnd end = terrain_end_at(0.0F, 4000.0, 0.0F);
   EXPECT_NEAR(end.air, 0.86F, 1e-6F);
   EXPECT_EQ(end.dissolved, 1.0F);

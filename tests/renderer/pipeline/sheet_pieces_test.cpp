@@ -29,10 +29,8 @@ TEST(SheetPieces, CoverTheRegionOnce) {
 }
 
 TEST(SheetPieces, FollowEachOtherAlongTheShorterSide) {
-  const std::vector<PixelRect> wide = pieces_of({0, 0, 400, 200}, {.piece_px = 100});
-  EXPECT_EQ(wide[1], (PixelRect{0, 100, 100, 200}));
-  const std::vector<PixelRect> high = pieces_of({0, 0, 200, 400}, {.piece_px = 100});
-  EXPECT_EQ(high[1], (PixelRect{100, 0, 200, 100}));
+  EXPECT_EQ(pieces_of({0, 0, 400, 200}, {.piece_px = 100})[1], (PixelRect{0, 100, 100, 200}));
+  EXPECT_EQ(pieces_of({0, 0, 200, 400}, {.piece_px = 100})[1], (PixelRect{100, 0, 200, 100}));
 }
 
 TEST(SheetPieces, PartsOfAPlanShareThemInOrder) {

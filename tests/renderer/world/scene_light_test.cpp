@@ -40,8 +40,7 @@ LitPicture lit(const LoadedScene& scene, PixelRect part, int tile_px = 32) {
 }
 
 TEST(SceneLight, SaysNothingWhereTheSceneSaysNothing) {
-  const World world = make_world(with(""), silent_progress());
-  EXPECT_EQ(world.light_field, nullptr);
+  EXPECT_EQ(make_world(with(""), silent_progress()).light_field, nullptr);
 }
 
 TEST(SceneLight, RegionsTurnTheScenesSunOrHaveTheirOwn) {
@@ -97,8 +96,7 @@ TEST(SceneLight, NotesAnOptionalFileThatIsMissing) {
   test::Notes progress;
   const std::string block =
       "[[light.regions]]\nfile = \"nowhere.gpkg\"\nget_from = \"the club\"\nturn_deg = 40\n";
-  const World world = make_world(with(block + "optional = true\n"), progress);
-  EXPECT_EQ(world.light_field, nullptr);
+  EXPECT_EQ(make_world(with(block + "optional = true\n"), progress).light_field, nullptr);
   EXPECT_THAT(progress.all,
               testing::Contains("light.regions.0 is left out: nowhere.gpkg is missing; the club"));
   const World beside = make_world(with(block + "optional = true\n" + cloud), silent_progress());

@@ -173,8 +173,7 @@ TEST(WorldNotes, NameTheCoordinateSystemAndEveryFileThatWasRead) {
 }
 
 TEST(SceneMist, AScenesMistIsNoneWhereItAsksForNone) {
-  const World world = make_world(test::small_scene(), silent_progress());
-  EXPECT_TRUE(world.mist.empty());
+  EXPECT_TRUE(make_world(test::small_scene(), silent_progress()).mist.empty());
 }
 
 TEST(SceneMist, IsWhatTheSceneSays) {

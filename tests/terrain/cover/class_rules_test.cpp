@@ -390,8 +390,7 @@ TEST(ClassRules, FirnHidesIceAboveTheLineButNotOnSteps) {
   EXPECT_GT(gentle[0], 20.0 * gentle[1]);
   EXPECT_GT(gentle[3], 100.0);
   EXPECT_EQ(gentle[2], 0.0) << "no firn below the line";
-  const auto steep = shares(0.6);
-  EXPECT_GT(steep[1], 300.0) << "steps of ice above the line";
+  EXPECT_GT(shares(0.6)[1], 300.0) << "steps of ice above the line";
 }
 
 // Above the highest grass there is rubble, even on level ground, and around the tongues of

@@ -85,8 +85,7 @@ TEST_F(FetchArea, CellsOfTwoWidthsJoinWithoutASeam) {
   for (int west : {10, 11, 12})
     for (int south : {49, 50}) serve_tile(source, west, south, hills);
   serve();
-  const FetchedArea area = fetch(parameters({11.5, 50.0}, 40.0));
-  EXPECT_THAT(area.elevation.tiles, SizeIs(2));
+  EXPECT_THAT(fetch(parameters({11.5, 50.0}, 40.0)).elevation.tiles, SizeIs(2));
   EXPECT_LT(largest_error(elevation(), hills), rounding_m);
   // And where cells of the result are so wide that many are averaged.
   FetchParameters p = parameters({11.5, 50.0}, 40.0);
@@ -121,8 +120,7 @@ TEST_F(FetchArea, ATileThatIsNotThereIsSea) {
   };
   serve_tile(source, 9, 42, island);
   serve();
-  const FetchedArea area = fetch(parameters({9.95, 42.5}, 50.0));
-  EXPECT_TRUE(area.elevation.tiles[1].about.missing);
+  EXPECT_TRUE(fetch(parameters({9.95, 42.5}, 50.0)).elevation.tiles[1].about.missing);
   EXPECT_THAT(progress_.text(), HasSubstr("N42E010"));
   const Raster<float> dem = elevation();
   const PointTransform to_degrees(dem.crs, "EPSG:4326");
@@ -253,8 +251,7 @@ TEST_F(FetchArea, WiderCellsOfLandCoverAreOnesOfTheSource) {
   serve();
   FetchParameters p = parameters({10.5, 43.5}, 60.0, true);
   p.cover_cell_m = 1000.0;
-  const FetchedArea area = fetch(p);
-  EXPECT_EQ(area.land_cover->frame.transform.cell_x, 1000.0);
+  EXPECT_EQ(fetch(p).land_cover->frame.transform.cell_x, 1000.0);
   RasterSource source;
   source.path = path("out/land_cover.tif");
   const Raster<std::int32_t> read = read_codes(source);
@@ -271,8 +268,7 @@ TEST_F(FetchArea, TheRecordSaysWhereEveryCellComesFrom) {
   EXPECT_EQ(area.elevation.licence, "© who measured. free with credit");
   EXPECT_THAT(area.elevation.get_from, HasSubstr("belvedere fetch --at 11.5,47.5"));
   const std::string record = test::read_bytes(area.record);
-  const ConfigValue parsed = parse_config(record, "fetched.toml");
-  EXPECT_NE(find(as_table(parsed, "x"), "fetched"), nullptr);
+  EXPECT_NE(find(as_table(parse_config(record, "fetched.toml"), "x"), "fetched"), nullptr);
   EXPECT_THAT(record,
               AllOf(HasSubstr("credit = \"© who measured"),
                     HasSubstr("address = \"" + mirror() + "dem/N47_00_E011_00_DEM.tif\""),

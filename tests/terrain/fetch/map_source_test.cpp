@@ -104,8 +104,7 @@ TEST(MapSource, TilesOfAnAreaAreThoseThatHoldAPartOfIt) {
               ElementsAre("N47E010", "N47E011", "N46E010", "N46E011"));
   EXPECT_THAT(names({179.9, -17.2, 180.1, -16.8}),
               ElementsAre("S17E179", "S17W180", "S18E179", "S18W180"));
-  const MapSource cover = read_map_source("esa_worldcover");
-  EXPECT_TRUE(tiles_of(cover, {0.0, -70.0, 1.0, -69.0}).empty());
+  EXPECT_TRUE(tiles_of(read_map_source("esa_worldcover"), {0.0, -70.0, 1.0, -69.0}).empty());
 }
 
 TEST(MapSource, FieldsMayHaveMoreDigitsOrBeNumbers) {

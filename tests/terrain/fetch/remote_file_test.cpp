@@ -195,8 +195,7 @@ TEST_F(Remote, AChangedFileIsReadAnew) {
   cells(cache_, {11.4, 47.9, 11.6, 47.95});
   edition(99, "\"two\"");
   const DegreeBox all{11.1, 47.1, 11.9, 47.9};
-  const Grid<float> through_cache = cells(cache_, all);
-  EXPECT_EQ(through_cache, cells(no_cache(), all));
+  EXPECT_EQ(cells(cache_, all), cells(no_cache(), all));
   EXPECT_THAT(progress_.text(), HasSubstr("changed on the server"));
 }
 

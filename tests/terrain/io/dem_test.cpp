@@ -302,8 +302,7 @@ TEST_F(HeightDoubts, NodataThatTheCellsCannotHoldIsVoid) {
     EXPECT_EQ(dem.filled(5, 20), 0) << c.type;
     EXPECT_NEAR(dem.altitude_m(12, 20), 112.F, 3.F) << c.type;
     EXPECT_THAT(notes.text(), HasSubstr(std::string("nodata value ") + c.nodata)) << c.type;
-    const RasterSource codes = source_of(path("w.vrt"), "EPSG:32632");
-    EXPECT_EQ(read_codes(codes).cells(12, 20), -1) << c.type;
+    EXPECT_EQ(read_codes(source_of(path("w.vrt"), "EPSG:32632")).cells(12, 20), -1) << c.type;
   }
   // More than one range away, it is no number of the cells.
   write_band("w", "Byte", "-9999",
@@ -450,8 +449,7 @@ TEST_F(HeightDoubts, LargeGroundIsJudgedAlike) {
   }
   const Dem whole = levels.whole();
   for (const float z : whole.altitude_m) ASSERT_NEAR(z, 1200.F, 0.5F);
-  const Dem window = levels.window(0, {45, 5, 55, 15}, whole);
-  EXPECT_EQ(window.filled(5, 4), 1);
+  EXPECT_EQ(levels.window(0, {45, 5, 55, 15}, whole).filled(5, 4), 1);
   EXPECT_EQ(dem.filled(50, 9), 1);
 }
 

@@ -104,8 +104,7 @@ TEST_F(Points, ShapefilesInAnotherEncodingNeedItsName) {
                             .c_str()),
             0);
   write_text("p.cpg", "ISO-8859-1");
-  const PointTable named = read_points(file, utm_);
-  EXPECT_EQ(named.points.at(0).values.at(0), "W\xc3\xb6rner");
+  EXPECT_EQ(read_points(file, utm_).points.at(0).values.at(0), "W\xc3\xb6rner");
   // No .cpg, and no code page in the table's own header (byte 29).
   std::filesystem::remove(path("p.cpg"));
   std::string table = read_text("p.dbf");

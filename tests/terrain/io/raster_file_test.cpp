@@ -104,8 +104,7 @@ TEST_F(EncodedRaster, GroundLargerThanMemoryIsDecodedToo) {
   DemLevels levels(parameters, frame, 2, 0.0, silent_progress());
   const Dem whole = levels.whole();
   EXPECT_NEAR(whole.altitude_m(8, 5), slope(32, 20), 0.1F);
-  const Dem window = levels.window(0, {20, 10, 30, 20}, whole);
-  EXPECT_NEAR(window.altitude_m(3, 4), slope(23, 14), 0.06F);
+  EXPECT_NEAR(levels.window(0, {20, 10, 30, 20}, whole).altitude_m(3, 4), slope(23, 14), 0.06F);
 }
 
 TEST_F(EncodedRaster, WhatIsNotEncodedIsRefused) {

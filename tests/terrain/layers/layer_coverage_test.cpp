@@ -152,8 +152,7 @@ TEST(LayerCoverage, CoverageGoesToChildrenAlone) {
   EXPECT_FLOAT_EQ(c[3](1, 0), 0.2F);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(c[k](2, 0), 0.F);
   EXPECT_EQ(c[4](2, 0), 1.F);
-  const Grid<glm::vec3> colour = layer_colour(compile_layers(layers), c);
-  EXPECT_EQ(colour(2, 0), glm::vec3(255.F, 255.F, 0.F));
+  EXPECT_EQ(layer_colour(compile_layers(layers), c)(2, 0), glm::vec3(255.F, 255.F, 0.F));
 }
 
 TEST(LayerCoverage, TablesAndHatsEqualTheirDefinition) {

@@ -102,8 +102,7 @@ TEST(Registration, WrongPairsAreFoundAndSureOnesAreKept) {
 
 TEST(Registration, NoiseIsEstimatedUnlessItIsGiven) {
   test::SyntheticView truth;
-  const std::vector<ControlPair> coarse = painted_pairs(40, 6.0, false, truth);
-  EXPECT_GE(register_pairs(coarse, {1200, 550}).sigma_px, 4.5);
+  EXPECT_GE(register_pairs(painted_pairs(40, 6.0, false, truth), {1200, 550}).sigma_px, 4.5);
   const std::vector<ControlPair> fine = painted_pairs(40, 1.0, false, truth);
   EXPECT_LE(register_pairs(fine, {1200, 550}).sigma_px, 2.0);
   EXPECT_EQ(register_pairs(fine, {1200, 550}, {.view = {}, .sigma_px = 4.0}).sigma_px, 4.0);

@@ -192,8 +192,7 @@ TEST(Drainage, CarriesAllWaterToTheOutletAndReceiversComeFirst) {
   }
   Grid<float> inflow(40, 30, 0.F);
   inflow(39, 29) = 5.F;
-  const Grid<float> catchment = synthetic::catchments_km2(drainage, inflow, 100.0);
-  EXPECT_NEAR(catchment[7], 40 * 30 * 0.01 + 5.0, 1e-3);
+  EXPECT_NEAR(synthetic::catchments_km2(drainage, inflow, 100.0)[7], 40 * 30 * 0.01 + 5.0, 1e-3);
 }
 
 TEST(Erosion, SlopesDoNotPreferTheGridsDirections) {

@@ -50,9 +50,7 @@ TEST(MakeLabelMap, PatchesComeNearInPairsAndBorders) {
 
 TEST(MakeLabelMap, AMapOfTwiceTheSizeHasTheSamePairs) {
   const LabelMapModel model = learn_label_map(patches(160, 8), 3);
-  const LabelMapFigures off =
-      label_map_figures(model, make_label_map(model, 320, 320, {.effort = .6}));
-  EXPECT_LT(off.pairs, .05);
+  EXPECT_LT(label_map_figures(model, make_label_map(model, 320, 320, {.effort = .6})).pairs, .05);
 }
 
 TEST(MakeLabelMap, StripesKeepTopAndBottom) {

@@ -38,8 +38,7 @@ std::size_t peak_of(int width, int height, int guides, bool with_depth) {
   const std::vector<Exemplar> exemplars{exemplar};
   const GuideStack target = waves(width, height, guides, with_depth);
   const test::CountedMemory memory;
-  const MatchField field = synthesize(exemplars, target, {}, silent_progress());
-  EXPECT_EQ(field.width(), width);
+  EXPECT_EQ(synthesize(exemplars, target, {}, silent_progress()).width(), width);
   return memory.peak_bytes();
 }
 

@@ -63,8 +63,7 @@ TEST_F(ExemplarRegister, WritesASceneAReportAndTrust) {
   const Grid<std::uint16_t> trust = read_grey(path("registered/trust.png"));
   EXPECT_EQ(trust.width(), 300);
   EXPECT_GT(trust(150, 120), 60);
-  const Grid<std::uint8_t> classes = read_class_mask(path("registered/classes.png"));
-  EXPECT_EQ(classes.height(), trust.height());
+  EXPECT_EQ(read_class_mask(path("registered/classes.png")).height(), trust.height());
   EXPECT_THAT(read_bytes(path("registered/index.html")), HasSubstr("Land cover"));
   // The scene is one that the program takes.
   EXPECT_THAT(run({"check", path("registered/registered.toml"), "--data", path("")}), Ends(0));

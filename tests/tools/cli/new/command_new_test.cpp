@@ -153,8 +153,7 @@ TEST_F(New, PicturesAreOneNumberedSheet) {
                    "--proposals", "2", "--json"}),
               Prints(AllOf(HasSubstr("\"proposals\": ["), HasSubstr("proposals.png"),
                            HasSubstr("\"merit\": "))));
-  const Grid<glm::vec3> sheet = read_picture(path("views/proposals.png"));
-  EXPECT_EQ(sheet.width(), 2 * 520 + 3 * 12);
+  EXPECT_EQ(read_picture(path("views/proposals.png")).width(), 2 * 520 + 3 * 12);
 }
 
 TEST_F(New, FilesElsewhereAreNamedByTheirDataFolder) {
