@@ -69,8 +69,7 @@ Grid<int> numbered(int width, int height) {
 }
 
 TEST(GridPart, APartHasTheValuesOfItsRectangle) {
-  const Grid<int> whole = numbered(7, 200);
-  const Grid<int> part = part_of(whole, {2, 30, 6, 195});
+  const Grid<int> part = part_of(numbered(7, 200), {2, 30, 6, 195});
   ASSERT_EQ(part.width(), 4);
   ASSERT_EQ(part.height(), 165);
   for (const auto [x, y] : test::cells(part))

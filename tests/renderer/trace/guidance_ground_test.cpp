@@ -153,8 +153,7 @@ TEST(GuidanceGround, GroundThatMovedTakesAlongWhatLiesOnIt) {
         return x > 3000.0 ? LandCoverClass::forest : LandCoverClass::alpine_grass;
       });
   world.terrain.came_from = Grid<glm::vec2>(200, 200, glm::vec2(-10.F, 0.F));
-  const auto camera = make_camera(southward(96, 64));
-  const GuidanceBuffers b = trace(world, *camera);
+  const GuidanceBuffers b = trace(world, *make_camera(southward(96, 64)));
   int forest = 0;
   int grass = 0;
   for (std::size_t i = 0; i < b.depth_m.size(); ++i) {

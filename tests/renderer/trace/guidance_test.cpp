@@ -57,8 +57,7 @@ TEST(Guidance, PixelPlacesShareNoColumnAndNoRow) {
 TEST(Guidance, LevelGroundIsLitOpenAndFlat) {
   const SyntheticWorld world = make_world(
       200, 200, [](double, double) { return 500.0; }, all_meadow);
-  const auto camera = make_camera(southward(96, 64));
-  const GuidanceBuffers b = trace(world, *camera);
+  const GuidanceBuffers b = trace(world, *make_camera(southward(96, 64)));
   int ground = 0;
   for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
     if (b.is_sky(i)) continue;
@@ -92,8 +91,7 @@ TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
         return bay || hole ? nan : 500.0;
       },
       all_meadow);
-  const auto camera = make_camera(southward(128, 96, -35.0));
-  const GuidanceBuffers b = trace(world, *camera);
+  const GuidanceBuffers b = trace(world, *make_camera(southward(128, 96, -35.0)));
   int ground = 0;
   int at_bay = 0;
   int exact = 0;
@@ -126,8 +124,7 @@ TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
 TEST(Guidance, SkyPixelsHoldTheirDefaults) {
   const SyntheticWorld world = make_world(
       100, 100, [](double, double) { return 500.0; }, all_meadow);
-  const auto camera = make_camera(southward(64, 32, 20.0));
-  const GuidanceBuffers b = trace(world, *camera);
+  const GuidanceBuffers b = trace(world, *make_camera(southward(64, 32, 20.0)));
   for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
     ASSERT_TRUE(b.is_sky(i));
     EXPECT_EQ(b.land_cover[i], LandCoverClass::sky);
@@ -242,8 +239,7 @@ TEST(Guidance, FallLineFollowsTheSlopeInThePicture) {
     const SyntheticWorld world = make_world(
         200, 200, [&](double x, double y) { return 1000.0 - 0.2 * (c.dx * x + c.dy * y); },
         all_meadow);
-    const auto camera = make_camera(southward(64, 48, -25.0));
-    const GuidanceBuffers b = trace(world, *camera);
+    const GuidanceBuffers b = trace(world, *make_camera(southward(64, 48, -25.0)));
     const std::size_t centre = b.depth_m.index(32, 24);
     ASSERT_FALSE(b.is_sky(centre));
     EXPECT_GT(glm::dot(b.fall_line[centre], c.image), 0.7F) << c.dx << ' ' << c.dy;
@@ -444,8 +440,7 @@ TEST(Silhouettes, StrengthIsFourteenTimesTheLogRatio) {
 }
 
 TEST(Silhouettes, EverythingIsNearerThanTheSky) {
-  const Grid<float> depth = plain(30, 40, 20.0);
-  const Grid<float> found = find_silhouettes(depth);
+  const Grid<float> found = find_silhouettes(plain(30, 40, 20.0));
   for (int x = 0; x < 30; ++x) {
     EXPECT_EQ(found(x, 20), 1.F);
     EXPECT_EQ(found(x, 19), 0.F);

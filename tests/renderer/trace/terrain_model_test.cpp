@@ -174,8 +174,7 @@ float kept_of(float rim_m, double fade_m) {
 }
 
 TEST(TerrainRim, IsTheDistanceToTheEdgeWhereNothingStandsOut) {
-  const Dem dem = hills_with_mountain(0.0, 10);
-  const Grid<float> rim = rim_distance(dem);
+  const Grid<float> rim = rim_distance(hills_with_mountain(0.0, 10));
   for (const auto [x, y] : test::cells(rim_posts, rim_posts)) {
     const int last = rim_posts - 1;
     ASSERT_NEAR(rim(x, y), rim_cell_m * std::min(std::min(x, last - x), std::min(y, last - y)),
@@ -187,8 +186,7 @@ TEST(TerrainRim, IsTheDistanceToTheEdgeWhereNothingStandsOut) {
 TEST(TerrainRim, ATallMountainAtTheEdgeKeepsItsColour) {
   const double fade_m = fade_of_side * rim_side_m;
   for (const int summit : {2, 6, 12, 40}) {
-    const Dem dem = hills_with_mountain(3000.0, summit);
-    const Grid<float> rim = rim_distance(dem);
+    const Grid<float> rim = rim_distance(hills_with_mountain(3000.0, summit));
     EXPECT_GE(kept_of(rim(150, summit), fade_m), 0.75F) << summit << " rows from the edge";
     EXPECT_LT(kept_of(rim(20, 1), fade_m), 0.2F) << "far from it ground still fades";
   }

@@ -78,8 +78,7 @@ TEST(HoleLakes, HaveLevelShores) {
     if (!std::isnan(raster.cells(x, y)))
       raster.cells(x, y) = 700.F + 5.F * static_cast<float>(x - 250);
   raster.transform = {0.0, 0.0, 30.0, 30.0};
-  const Dem dem = make_dem(std::move(raster));
-  const Grid<std::uint8_t> lakes = find_hole_lakes(dem);
+  const Grid<std::uint8_t> lakes = find_hole_lakes(make_dem(std::move(raster)));
   EXPECT_EQ(lakes(100, 100), 1);
   EXPECT_EQ(lakes(300, 300), 0);
   EXPECT_EQ(lakes(140, 100), 0);

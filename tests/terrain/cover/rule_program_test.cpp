@@ -80,8 +80,7 @@ TEST(RuleRows, AnyRectangleHasTheBitsOfTheWhole) {
 }
 
 TEST(RuleProgram, NeedsWhatItsTermsNeedAndNoMore) {
-  const RuleProgram program = program_of("slope + n60", "t > 0");
-  const std::vector<bool> needs = program.all_needs();
+  const std::vector<bool> needs = program_of("slope + n60", "t > 0").all_needs();
   for (std::size_t v = 0; v < needs.size(); ++v)
     EXPECT_EQ(needs[v], v == slot_of("slope") || v == slot_of("n60") || v + 1 == needs.size()) << v;
   EXPECT_FALSE(program_of("slope", "").conditions[0].has_value());

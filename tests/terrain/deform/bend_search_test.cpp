@@ -51,8 +51,7 @@ TEST(ValleySight, SeesWhatAStraightLineReaches) {
   BendCurve curve;
   curve.points = {{10000.0, std::nullopt, 9.0}, {70000.0, std::nullopt, 0.0}};
   const BendProfile bend(curve);
-  const Grid<float> z = ridges();
-  const Grid<std::uint8_t> floor = find_valley_floor(z, 100.0);
+  const Grid<std::uint8_t> floor = find_valley_floor(ridges(), 100.0);
   const auto height_at = [&](double d) {
     return static_cast<double>(ridge_height(d)) - bend.drop_m(d);
   };

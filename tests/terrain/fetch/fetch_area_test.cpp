@@ -190,8 +190,7 @@ TEST_F(FetchArea, OtherMeaningsOfMissingTiles) {
 }
 
 TEST_F(FetchArea, ATileOfAnotherGridIsRefused) {
-  const MapSource source = elevation_source();
-  const std::string elsewhere = serve_tile(source, 12, 47, slant);
+  const std::string elsewhere = serve_tile(elevation_source(), 12, 47, slant);
   std::filesystem::copy_file(elsewhere, path("served/dem/N47_00_E011_00_DEM.tif"));
   serve();
   EXPECT_THAT(test::input_error([&] {

@@ -27,8 +27,7 @@ int cells_of(const std::vector<TileCells>& tiles) {
 }
 
 TEST(TilePlan, AnAreaHasItsCellsAndSixAroundThem) {
-  const MapSource source = tens();
-  const std::vector<PartPlan> parts = plan_parts(source, {10.25, 46.35, 10.65, 46.65}, 1);
+  const std::vector<PartPlan> parts = plan_parts(tens(), {10.25, 46.35, 10.65, 46.65}, 1);
   ASSERT_THAT(parts, SizeIs(1));
   EXPECT_EQ(parts[0].x0, 1902 - 6);
   EXPECT_EQ(parts[0].x1, 1907 + 6);
@@ -50,8 +49,7 @@ TEST(TilePlan, EveryCellOfAPartLiesInOneTile) {
 }
 
 TEST(TilePlan, PartsChangeWhereCellsChangeTheirWidth) {
-  const MapSource source = tens();
-  const std::vector<PartPlan> parts = plan_parts(source, {10.2, 58.7, 12.7, 61.6}, 1);
+  const std::vector<PartPlan> parts = plan_parts(tens(), {10.2, 58.7, 12.7, 61.6}, 1);
   ASSERT_THAT(parts, SizeIs(2));
   EXPECT_EQ(parts[0].lattice.columns, 5);
   EXPECT_EQ(parts[1].lattice.columns, 10);

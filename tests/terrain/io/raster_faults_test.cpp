@@ -105,8 +105,7 @@ TEST_F(RasterFaults, MissingFilesAndFoldersAreErrors) {
 }
 
 TEST_F(RasterFaults, TruncatedGeoTiffIsAnErrorInItsOwnWords) {
-  const Raster<float> raster = make_hills(600, 600, {0.0, 0.0, 30.0, 30.0}, "EPSG:32632");
-  write_raster(path("whole.tif"), raster);
+  write_raster(path("whole.tif"), make_hills(600, 600, {0.0, 0.0, 30.0, 30.0}, "EPSG:32632"));
   const std::string whole = read_text("whole.tif");
   for (const double part : {0.001, 0.1, 0.5, 0.95}) {
     write_text("cut.tif",

@@ -111,8 +111,7 @@ TEST(LayerCoverage, StaysBetweenNothingAndAll) {
                    layer("everywhere", -1, 0x0000c8, 1.0)};
   layers.layers[3].when = "0";
   layers.layers[4].when = "0.001";
-  const LayerProgram program = compile_layers(layers);
-  const auto c = layer_coverage(program, {}, metres, {0, 0, 3, 2}, 1);
+  const auto c = layer_coverage(compile_layers(layers), {}, metres, {0, 0, 3, 2}, 1);
   EXPECT_EQ(c[0](2, 1), 1.F);
   EXPECT_EQ(c[1](2, 1), 1.F);
   EXPECT_EQ(c[2](2, 1), 0.F);

@@ -64,8 +64,7 @@ std::size_t count_wrong(const Registration& found) {
 
 TEST(Registration, ExactPairsOfStillGroundAreAllKept) {
   test::SyntheticView truth;
-  const std::vector<ControlPair> pairs = painted_pairs(40, 0.0, false, truth);
-  const Registration found = register_pairs(pairs, {1200, 550});
+  const Registration found = register_pairs(painted_pairs(40, 0.0, false, truth), {1200, 550});
   EXPECT_EQ(count_wrong(found), 0U);
   EXPECT_EQ(found.frame.kind, ViewKind::plane);
   const std::vector<double> off = distances_px(found, truth, false, false);

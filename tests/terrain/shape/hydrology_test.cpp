@@ -149,8 +149,7 @@ TEST(FlowAccumulation, FillsAHollowToItsOutlet) {
 TEST(FlowAccumulation, EveryCellDrainsStrictlyDownstream) {
   // Noise is all hollows. Away from the border each cell has a neighbour with a larger catchment;
   // the total outflow of the grid is complete.
-  const Grid<float> ground = rough(70, 55, 4);
-  const Grid<float> area = flow_accumulation_km2(ground, 1000.0);
+  const Grid<float> area = flow_accumulation_km2(rough(70, 55, 4), 1000.0);
   for (const auto [x, y] : test::cells({1, 1, 69, 54})) {
     bool drains = false;
     for (int v = y - 1; v <= y + 1; ++v)

@@ -219,8 +219,7 @@ TEST(CompositeModelFile, ReadsBackToTheSameBits) {
 }
 
 TEST(CompositeModelFile, SharesKeepFourDigits) {
-  const test::Composite two = test::two_textures(200, 130);
-  const LabelMapModel exact = learn_label_map(two.labels, 2);
+  const LabelMapModel exact = learn_label_map(test::two_textures(200, 130).labels, 2);
   const CompositeModel model = parse_composite(text_of_small(), "x.composite");
   ASSERT_EQ(model.map.pairs.size(), exact.pairs.size());
   for (std::size_t i = 0; i < exact.pairs.size(); ++i)

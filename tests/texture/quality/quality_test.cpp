@@ -123,8 +123,7 @@ TEST(Quality, SilhouettesCountPairsAcrossJumpsOnly) {
 TEST(Quality, StrokeRunTellsLongStrokesFromShort) {
   const Grid<std::uint8_t> labels(200, 200, 1);
   const auto run = [&](int length) {
-    const Grid<Rgb8> picture = dashes(200, 200, length, 3);
-    return stroke_run(picture, labels, border_distance_squared(labels), 1, 3);
+    return stroke_run(dashes(200, 200, length, 3), labels, border_distance_squared(labels), 1, 3);
   };
   // A run through a random pixel of a dash is the dash; a neighbour of the same grey is rare (about
   // 3 of 160 each side).

@@ -19,8 +19,7 @@ Picture sand_of(float slope_deg) {
 
 // Beaches and river bars: short level ripples, each crest over a darker and cooler trough.
 TEST(Sand, LiesInLevelRipples) {
-  const Picture p = sand_of(2.F);
-  const std::vector<Stroke> strokes = grow_strokes("sand", p.scene());
+  const std::vector<Stroke> strokes = grow_strokes("sand", sand_of(2.F).scene());
   ASSERT_GT(strokes.size(), 2000U);
   ASSERT_EQ(strokes.size() % 2, 0U);
   double lighter = 0.0;

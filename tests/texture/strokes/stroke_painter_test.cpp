@@ -140,8 +140,7 @@ TEST(StrokePainter, TreesOfTheValleyFloorStandInGroups) {
 // 10 … 30 % of the strokes are of the next darker tone, so that no area is flat.
 TEST(StrokePainter, DarkerStrokesAreMixedIn) {
   const auto darker_share = [&](LandCoverClass id, std::string_view kind) {
-    const Picture p = one_class(id);
-    const auto strokes = grow_strokes(kind, p.scene());
+    const auto strokes = grow_strokes(kind, one_class(id).scene());
     // Half a step down from the base at .5, the darker picture at .4.
     const auto dark = std::count_if(strokes.begin(), strokes.end(),
                                     [](const Stroke& s) { return s.colour.y < 0.455F; });

@@ -29,8 +29,7 @@ Picture lake_picture(float altitude_m = 900.F, float footprint_m = 14.F) {
 }
 
 TEST(WaterStrokes, StreaksLieLevelAndLightOnOpenWaterAlone) {
-  const Picture p = lake_picture();
-  const std::vector<Stroke> streaks = grow_strokes("wind streaks", p.scene());
+  const std::vector<Stroke> streaks = grow_strokes("wind streaks", lake_picture().scene());
   ASSERT_GT(streaks.size(), 40U);
   for (const Stroke& s : streaks) {
     EXPECT_LT(angle_deg(axis_of(s), {1.F, 0.F}), 5.0);
@@ -129,8 +128,7 @@ TEST(WaterStrokes, ABrookIsWhiteAlongItsOwnWayOverAWall) {
 
 TEST(WaterStrokes, SurfRunsAlongTheSeaInABrokenLine) {
   EXPECT_TRUE(grow_strokes("sea surf", lake_picture(900.F).scene()).empty()) << "a lake";
-  const Picture p = lake_picture(0.4F);
-  const std::vector<Stroke> surf = grow_strokes("sea surf", p.scene());
+  const std::vector<Stroke> surf = grow_strokes("sea surf", lake_picture(0.4F).scene());
   ASSERT_GT(surf.size(), 40U);
   Grid<std::uint8_t> white(lake_width, 1, 0);
   for (const Stroke& s : surf) {

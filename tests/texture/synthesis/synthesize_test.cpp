@@ -337,8 +337,7 @@ TEST(Synthesize, ManyWeakGuidesLeaveTheStrongOneAlone) {
 
 TEST(Synthesize, ReplaysOntoAnotherLayer) {
   const std::vector<Exemplar> exemplars{painting(80, 80, 1)};
-  const GuideStack target = land(64, 64, 40);
-  const MatchField field = run(exemplars, target);
+  const MatchField field = run(exemplars, land(64, 64, 40));
   Grid<int> layer(80, 80);
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 80; ++x) layer(x, y) = 1000 * y + x;

@@ -119,8 +119,7 @@ TEST_F(Composite, NumbersAreLabelsToo) {
 }
 
 TEST_F(Composite, BadLabelsAreNamed) {
-  const test::Composite two = test::two_textures(120, 120);
-  const std::string crop = write_crop(two);
+  const std::string crop = write_crop(test::two_textures(120, 120));
   const auto refused = [&](const std::string& labels, const std::string& word) {
     EXPECT_THAT(run({"composite", "learn", crop, "--labels", labels, "--out", path("c.composite")}),
                 Ends(3, HasSubstr(word)));
