@@ -21,10 +21,6 @@ float rough_value(int x, int y) {
                             3.0 * ((x * 7 + y * 13) % 11));
 }
 
-Grid<float> rough_grid(int width, int height) {
-  return test::grid_of(width, height, [&](int x, int y) { return rough_value(x, y); });
-}
-
 Grid<float> reduce_in_strips(const Grid<float>& grid, int rows) {
   DemRowReducer reducer(grid.width(), grid.height());
   Grid<float> out((grid.width() + 1) / 2, (grid.height() + 1) / 2);
@@ -43,7 +39,7 @@ TEST(DemRowReducer, EqualsReduceHoweverTheRowsCome) {
   for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 2), glm::ivec2(3, 5),
                                 glm::ivec2(6, 4), glm::ivec2(37, 52), glm::ivec2(40, 41)})
     for (const int rows : {1, 2, 3, 7, 100}) {
-      const Grid<float> grid = rough_grid(size.x, size.y);
+      const Grid<float> grid = test::grid_of(size.x, size.y, rough_value);
       EXPECT_EQ(reduce_in_strips(grid, rows), reduce(grid))
           << size.x << " × " << size.y << ", " << rows << " rows at once";
     }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -13,14 +12,10 @@
 namespace belvedere {
 namespace {
 
-Grid<float> make(int width, int height, const std::function<double(int, int)>& value) {
-  return test::grid_of(width, height, [&](int x, int y) { return value(x, y); });
-}
-
 double bumps(double x, double y) { return 100.0 * std::sin(1.3 * x) * std::cos(0.9 * y); }
 
 TEST(Resampler, CopiesCellsToTheBitWhereTheyCoincide) {
-  const Grid<float> cells = make(12, 9, bumps);
+  const Grid<float> cells = test::grid_of(12, 9, bumps);
   for (const double scale : {0.3, 1.0, 1.0005}) {
     const Resampler resampler({scale, scale});
     for (const auto [x, y] : test::cells(12, 9))
@@ -34,7 +29,7 @@ TEST(Resampler, ReproducesParabolas) {
   const auto parabola = [](double x, double y) {
     return 3.0 + 2.0 * x + 0.5 * y + 0.25 * x * x + 0.125 * y * y;
   };
-  const Grid<float> cells = make(12, 12, parabola);
+  const Grid<float> cells = test::grid_of(12, 12, parabola);
   const Resampler resampler({1.0, 1.0});
   for (const double x : {4.0, 4.25, 5.5, 6.9})
     for (const double y : {3.1, 5.0, 6.5})
@@ -42,7 +37,7 @@ TEST(Resampler, ReproducesParabolas) {
 }
 
 TEST(Resampler, NeverLeavesTheRangeOfItsCells) {
-  const Grid<float> shore = make(12, 12, [](int x, int) { return x < 6 ? 400.0 : 900.0; });
+  const Grid<float> shore = test::grid_of(12, 12, [](int x, int) { return x < 6 ? 400.0 : 900.0; });
   for (const double scale : {1.0, 1.7, 3.0}) {
     const Resampler resampler({scale, scale});
     for (double x = 3.0; x < 9.0; x += 0.05) {
@@ -57,14 +52,14 @@ TEST(Resampler, NeverLeavesTheRangeOfItsCells) {
 TEST(Resampler, AveragesWhatIsFinerThanItsSamples) {
   // Stripes one cell wide, across which four cells make a sample: their mean; along them nothing is
   // averaged.
-  const Grid<float> stripes = make(40, 40, [](int x, int) { return x % 2; });
+  const Grid<float> stripes = test::grid_of(40, 40, [](int x, int) { return x % 2; });
   EXPECT_NEAR(Resampler({4.0, 1.0}).sample(stripes, {20.0, 20.0}), 0.5, 0.02);
   EXPECT_NEAR(Resampler({4.0, 1.0}).sample(stripes, {21.0, 20.0}), 0.5, 0.02);
   EXPECT_EQ(Resampler({1.0, 4.0}).sample(stripes, {21.0, 20.0}), 1.F);
 }
 
 TEST(Resampler, BesideVoidsTakesTheMeanOfWhatIsKnown) {
-  Grid<float> cells = make(12, 12, [](int, int) { return 7.0; });
+  Grid<float> cells = test::grid_of(12, 12, [](int, int) { return 7.0; });
   for (const auto [x, y] : test::cells({6, 0, 12, 12})) cells(x, y) = NAN;
   const Resampler resampler({1.0, 1.0});
   EXPECT_EQ(resampler.sample(cells, {5.0, 5.0}), 7.F) << "on a centre";
@@ -74,7 +69,7 @@ TEST(Resampler, BesideVoidsTakesTheMeanOfWhatIsKnown) {
 }
 
 TEST(Resampler, KnowsNothingOutside) {
-  const Grid<float> cells = make(12, 9, bumps);
+  const Grid<float> cells = test::grid_of(12, 9, bumps);
   const Resampler resampler({1.0, 1.0});
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const glm::dvec2 at :
@@ -88,7 +83,7 @@ TEST(Resampler, LooksNoFurtherThanItsReach) {
   for (const double scale : {1.0, 1.5, 3.2}) {
     const Resampler resampler({scale, 1.0});
     const glm::ivec2 reach = resampler.reach();
-    const Grid<float> cells = make(40, 40, bumps);
+    const Grid<float> cells = test::grid_of(40, 40, bumps);
     for (const double x : {20.0, 20.3, 20.99}) {
       Grid<float> other = cells;
       for (const auto [u, v] : test::cells(40, 40))

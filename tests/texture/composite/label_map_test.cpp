@@ -10,14 +10,9 @@
 namespace belvedere {
 namespace {
 
-template <class F>
-Grid<std::uint8_t> map_of(int width, int height, F&& label) {
-  return test::grid_of<std::uint8_t>(width, height, [&](int x, int y) { return label(x, y); });
-}
-
 TEST(LabelMap, ACheckerboardHasKnownTables) {
-  const LabelMapModel model =
-      learn_label_map(map_of(64, 64, [](int x, int y) { return (x + y) % 2; }), 2);
+  const LabelMapModel model = learn_label_map(
+      test::grid_of<std::uint8_t>(64, 64, [](int x, int y) { return (x + y) % 2; }), 2);
   const auto table = [&](int scale, int offset) {
     return model.pairs.data() + model.pair_table(scale, offset);
   };
@@ -35,10 +30,11 @@ TEST(LabelMap, ACheckerboardHasKnownTables) {
 
 TEST(LabelMap, HeadsAndTailsAreNotMistaken) {
   // Label 1 is right of 0 and below 2.
-  const LabelMapModel model =
-      learn_label_map(map_of(60, 60, [](int x, int y) { return y < 30   ? 2
-                                                               : x < 30 ? 0
-                                                                        : 1; }), 3);
+  const LabelMapModel model = learn_label_map(
+      test::grid_of<std::uint8_t>(60, 60, [](int x, int y) { return y < 30   ? 2
+                                                                    : x < 30 ? 0
+                                                                             : 1; }),
+      3);
   const auto share = [&](int offset, std::size_t tail, std::size_t head) {
     return model.pairs[model.pair_table(0, offset) + 3 * tail + head];
   };
@@ -51,8 +47,8 @@ TEST(LabelMap, HeadsAndTailsAreNotMistaken) {
 TEST(LabelMap, LengthOfBordersIsExact) {
   // One vertical border in a map of 64 × 48: of 63 neighbours per row one differs, of those s apart
   // s do, as long as they cross it.
-  const LabelMapModel model =
-      learn_label_map(map_of(64, 48, [](int x, int) { return x < 32 ? 0 : 1; }), 2);
+  const LabelMapModel model = learn_label_map(
+      test::grid_of<std::uint8_t>(64, 48, [](int x, int) { return x < 32 ? 0 : 1; }), 2);
   const auto shares = border_shares(model);
   for (int scale = 0; scale < label_scales; ++scale) {
     const double step = 1 << scale;
@@ -61,8 +57,8 @@ TEST(LabelMap, LengthOfBordersIsExact) {
 }
 
 TEST(LabelMap, ProfileFollowsTheHeight) {
-  const LabelMapModel model =
-      learn_label_map(map_of(20, 160, [](int, int y) { return y < 80 ? 0 : 1; }), 2);
+  const LabelMapModel model = learn_label_map(
+      test::grid_of<std::uint8_t>(20, 160, [](int, int y) { return y < 80 ? 0 : 1; }), 2);
   for (std::size_t strip = 0; strip < label_strips; ++strip) {
     EXPECT_NEAR(model.profile[2 * strip] + model.profile[2 * strip + 1], 1.F, 1e-6);
     if (strip < 7) {
@@ -83,8 +79,8 @@ TEST(LabelMap, ProfileFollowsTheHeight) {
 }
 
 TEST(LabelMap, LayoutIsCountedOnceAMapAndPatchesByArea) {
-  const LabelMapModel sky =
-      learn_label_map(map_of(64, 64, [](int, int y) { return y < 32 ? 0 : 1; }), 2);
+  const LabelMapModel sky = learn_label_map(
+      test::grid_of<std::uint8_t>(64, 64, [](int, int y) { return y < 32 ? 0 : 1; }), 2);
   const LabelMapModel tall = at_size(sky, 64, 128);
   for (int scale = 0; scale < label_scales; ++scale) {
     const std::size_t at = sky.pair_table(scale, 1);
@@ -95,13 +91,13 @@ TEST(LabelMap, LayoutIsCountedOnceAMapAndPatchesByArea) {
   }
   EXPECT_NEAR(1.F - tall.rings[255], .5F * (1.F - sky.rings[255]), 1e-6);
   // For a map that is really twice as high, this is correct.
-  const auto off =
-      label_map_figures(sky, map_of(64, 128, [](int, int y) { return y < 64 ? 0 : 1; }));
+  const auto off = label_map_figures(
+      sky, test::grid_of<std::uint8_t>(64, 128, [](int, int y) { return y < 64 ? 0 : 1; }));
   EXPECT_LT(off.pairs_for_size, .25 * off.pairs);
   EXPECT_LT(off.profile, 1e-6);
 
   const auto board = [](int w, int h) {
-    return map_of(w, h, [](int x, int y) { return (x / 8 + y / 8) % 2; });
+    return test::grid_of<std::uint8_t>(w, h, [](int x, int y) { return (x / 8 + y / 8) % 2; });
   };
   EXPECT_LT(label_map_figures(learn_label_map(board(128, 128), 2), board(256, 256)).pairs_for_size,
             .02);
