@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
@@ -20,13 +21,12 @@ Exemplar noise(int width, int height, std::uint64_t seed) {
   exemplar.picture = Grid<Rgb8>(width, height);
   exemplar.guides.label = Grid<std::uint8_t>(width, height);
   Grid<std::uint8_t> altitude(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      for (std::size_t c = 0; c < 3; ++c)
-        exemplar.picture(x, y)[c] = static_cast<std::uint8_t>(random_index(256, seed, x, y, c));
-      exemplar.guides.label(x, y) = x < width / 2 ? 3 : 200;
-      altitude(x, y) = static_cast<std::uint8_t>(random_index(256, seed, x, y, 4));
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    for (std::size_t c = 0; c < 3; ++c)
+      exemplar.picture(x, y)[c] = static_cast<std::uint8_t>(random_index(256, seed, x, y, c));
+    exemplar.guides.label(x, y) = x < width / 2 ? 3 : 200;
+    altitude(x, y) = static_cast<std::uint8_t>(random_index(256, seed, x, y, 4));
+  }
   exemplar.guides.guides = {{"altitude", altitude}};
   return exemplar;
 }
@@ -34,9 +34,8 @@ Exemplar noise(int width, int height, std::uint64_t seed) {
 // Copied with one offset.
 MatchField shifted(int width, int height, int dx, int dy) {
   MatchField matches(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      matches(x, y) = {0, static_cast<std::uint16_t>(x + dx), static_cast<std::uint16_t>(y + dy)};
+  for (const auto [x, y] : test::cells(width, height))
+    matches(x, y) = {0, static_cast<std::uint16_t>(x + dx), static_cast<std::uint16_t>(y + dy)};
   return matches;
 }
 
@@ -46,11 +45,10 @@ TEST(MatchCost, APieceOfTheExemplarCostsNothing) {
   Grid<std::uint8_t> labels(20, 12);
   GuideStack target;
   target.guides = {{"altitude", Grid<std::uint8_t>(20, 12)}};
-  for (int y = 0; y < 12; ++y)
-    for (int x = 0; x < 20; ++x) {
-      labels(x, y) = exemplars[0].guides.label(x + 9, y + 8);
-      target.guides[0].values(x, y) = exemplars[0].guides.guides[0].values(x + 9, y + 8);
-    }
+  for (const auto [x, y] : test::cells(20, 12)) {
+    labels(x, y) = exemplars[0].guides.label(x + 9, y + 8);
+    target.guides[0].values(x, y) = exemplars[0].guides.guides[0].values(x + 9, y + 8);
+  }
   target.label = labels;
   EXPECT_EQ(seam_cost(matches, exemplars, labels, {}), Grid<float>(20, 12, 0.F));
   EXPECT_EQ(guide_error(matches, exemplars, target, "altitude"), Grid<std::uint8_t>(20, 12, 0));
@@ -109,8 +107,8 @@ TEST(MatchCost, BeyondASilhouetteNothingCounts) {
   for (std::size_t i = 0; i < labels.size(); ++i)
     labels[i] = exemplars[0].guides.label(matches[i].x, matches[i].y);
   Grid<float> depth(20, 12, 1000.F);
-  for (int y = 0; y < 12; ++y)
-    for (int x = 10; x < 20; ++x) depth(x, y) = 5000.F;  // … where the ground behind begins
+  for (const auto [x, y] : test::cells({10, 0, 20, 12}))
+    depth(x, y) = 5000.F;  // … where the ground behind begins
   EXPECT_GT(seam_cost(matches, exemplars, labels, {})(9, 6), 0.F);
   EXPECT_EQ(seam_cost(matches, exemplars, labels, depth), Grid<float>(20, 12, 0.F));
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/grids.h"
 #include "texture/synthesis/exemplar.h"
 
 namespace belvedere::test {
@@ -27,13 +28,12 @@ class PlainSynthesis {
         made_(target.width(), target.height()) {}
 
   MatchField run() {
-    for (int y = 0; y < made_.height(); ++y)
-      for (int x = 0; x < made_.width(); ++x) {
-        std::vector<Match> candidates;
-        if (coherent_) candidates = continuing(x, y);
-        made_(x, y) =
-            cheapest(x, y, candidates.empty() ? all_texels_of(target_.label(x, y)) : candidates);
-      }
+    for (const auto [x, y] : test::cells(made_)) {
+      std::vector<Match> candidates;
+      if (coherent_) candidates = continuing(x, y);
+      made_(x, y) =
+          cheapest(x, y, candidates.empty() ? all_texels_of(target_.label(x, y)) : candidates);
+    }
     return made_;
   }
 
@@ -92,10 +92,9 @@ class PlainSynthesis {
   std::vector<Match> all_texels_of(std::uint8_t label) const {
     std::vector<Match> texels;
     const Grid<std::uint8_t>& labels = exemplar_.guides.label;
-    for (int v = 0; v < labels.height(); ++v)
-      for (int u = 0; u < labels.width(); ++u)
-        if (labels(u, v) == label)
-          texels.push_back({0, static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(v)});
+    for (const auto [u, v] : test::cells(labels))
+      if (labels(u, v) == label)
+        texels.push_back({0, static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(v)});
     return texels;
   }
 

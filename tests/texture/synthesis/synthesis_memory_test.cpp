@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "tests/counted_memory.h"
+#include "tests/grids.h"
 #include "texture/synthesis/synthesize.h"
 
 namespace belvedere {
@@ -17,14 +18,13 @@ GuideStack waves(int width, int height, int guides, bool with_depth) {
   for (int g = 0; g < guides; ++g)
     stack.guides.push_back({"guide " + std::to_string(g), Grid<std::uint8_t>(width, height)});
   if (with_depth) stack.depth_m = Grid<float>(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      stack.label(x, y) = static_cast<std::uint8_t>((x / 40 + y / 30) % 3);
-      for (int g = 0; g < guides; ++g)
-        stack.guides[static_cast<std::size_t>(g)].values(x, y) =
-            static_cast<std::uint8_t>(x / (g + 1) + y);
-      if (with_depth) stack.depth_m(x, y) = static_cast<float>(1000 + 200 * (y / 50));
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    stack.label(x, y) = static_cast<std::uint8_t>((x / 40 + y / 30) % 3);
+    for (int g = 0; g < guides; ++g)
+      stack.guides[static_cast<std::size_t>(g)].values(x, y) =
+          static_cast<std::uint8_t>(x / (g + 1) + y);
+    if (with_depth) stack.depth_m(x, y) = static_cast<float>(1000 + 200 * (y / 50));
+  }
   return stack;
 }
 

@@ -12,6 +12,7 @@
 
 #include "base/progress.h"
 #include "base/random.h"
+#include "tests/grids.h"
 #include "texture/synthesis/synthesize.h"
 
 // A land of three classes and its painting, for tests of synthesis.
@@ -35,12 +36,11 @@ inline GuideStack land(int width, int height, std::uint64_t seed) {
   stack.label = Grid<std::uint8_t>(width, height);
   Grid<std::uint8_t> altitude(width, height);
   Grid<std::uint8_t> tone(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      altitude(x, y) = smooth_noise(seed, x, y, 30);
-      tone(x, y) = smooth_noise(seed + 1, x, y, 17);
-      stack.label(x, y) = altitude(x, y) < 100 ? 3 : altitude(x, y) < 150 ? 7 : 9;
-    }
+  for (const auto [x, y] : test::cells(width, height)) {
+    altitude(x, y) = smooth_noise(seed, x, y, 30);
+    tone(x, y) = smooth_noise(seed + 1, x, y, 17);
+    stack.label(x, y) = altitude(x, y) < 100 ? 3 : altitude(x, y) < 150 ? 7 : 9;
+  }
   stack.guides = {{"altitude", altitude}, {"tone", tone}};
   return stack;
 }
