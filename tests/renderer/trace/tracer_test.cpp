@@ -347,16 +347,12 @@ std::vector<Hit> trace_in_tasks(const Tracer& tracer, const std::vector<Ray>& ra
 TEST(Tracer, SameBitsForAnyThreadsTilesAndBundles) {
   const DeformedSurface surface = make_surface(500, 400, rough_altitude);
   const std::vector<Ray> rays = view_rays(surface, 320, 256, 4500.0);
-  std::vector<Hit> one;
-  {
-    const ThreadLimit limit(1);
-    one = trace_in_tasks(Tracer(surface), rays);
-  }
-  std::vector<Hit> two;
-  {
-    const ThreadLimit limit(2);
-    two = trace_in_tasks(Tracer(surface), rays);
-  }
+  const auto traced = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return trace_in_tasks(Tracer(surface), rays);
+  };
+  const std::vector<Hit> one = traced(1);
+  const std::vector<Hit> two = traced(2);
   TracerParameters parameters;
   parameters.tile_cells = 37;
   const std::vector<Hit> other_tiles = trace_in_tasks(Tracer(surface, parameters), rays);
