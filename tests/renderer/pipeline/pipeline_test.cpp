@@ -250,14 +250,6 @@ TEST_F(Pipeline, WhatGroundLeavesIsKnownBeforeTheWork) {
             ErrorKind::limit);
 }
 
-TEST_F(Pipeline, AnEyeBelowTheGroundIsRefusedWithTheHeight) {
-  const Error error = test::error_of([&] {
-    render(scene({"camera.position=[9000, 9000]", "camera.height_m=-500"}), out("a"), {});
-  });
-  EXPECT_EQ(error.kind(), ErrorKind::usage);
-  EXPECT_NE(std::string(error.what()).find("below the ground"), std::string::npos);
-}
-
 TEST_F(Pipeline, ASunBelowTheHorizonIsNotedAndLeavesSkyLight) {
   struct Notes : Progress {
     std::string all;
