@@ -37,6 +37,14 @@ const std::vector<Rung>& rungs() {
   return all;
 }
 
+std::vector<std::string> lacks_of(const LoadedScene& loaded, const Rung& rung) {
+  std::vector<std::string> out = rung.without;
+  if (rung.strokes) return out;
+  if (!loaded.scene.air.mist.empty()) out.emplace_back("mist");
+  if (loaded.scene.any_features()) out.emplace_back("features");
+  return out;
+}
+
 LoadedScene scene_of_rung(const LoadedScene& loaded, const Rung& rung) {
   LoadedScene out = loaded;
   Scene& scene = out.scene;

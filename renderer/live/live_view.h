@@ -34,6 +34,9 @@ struct Rung {
   bool is_last() const { return without.empty(); }
 };
 const std::vector<Rung>& rungs();
+// What a rung's picture of this scene lacks: `without`, and those of mist and features that the
+// scene has and the rung does not draw.
+std::vector<std::string> lacks_of(const LoadedScene& loaded, const Rung& rung);
 
 // The scene as a rung draws it.
 LoadedScene scene_of_rung(const LoadedScene& loaded, const Rung& rung);

@@ -125,6 +125,7 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress,
   if (const std::optional<glm::dvec2> position = place_target(scene.camera, dem))
     target = {*position, scene.camera.look_at_altitude_m ? *scene.camera.look_at_altitude_m
                                                          : altitude_m(*position)};
+  if (target) view.target_altitude_m = target->altitude_m;
   std::optional<double> viewer_ground_m;
   if (on_terrain(dem, view.viewer_xy)) viewer_ground_m = altitude_m(view.viewer_xy);
   const LazyValue<std::optional<CoarseGround>> region([&] {

@@ -29,7 +29,8 @@ struct View {
   double sun_image_x = 1.0;       // direction of the light in the picture: -1 left … +1 right
   AirParameters air;
   GeneralizeDistances generalize;
-  std::vector<DerivedValue> derived;  // of all these; empty where the scene sets all
+  std::optional<double> target_altitude_m;  // of the point looked at, where there is one
+  std::vector<DerivedValue> derived;        // of all these; empty where the scene sets all
 };
 
 // The deformation of a scene, with the positions of summits and handles in the DEM's CRS. Throws

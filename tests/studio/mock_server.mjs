@@ -51,6 +51,33 @@ width = 2400
 height = 1100
 `;
 
+// What the program finds for a picture, of all that its scene leaves open.
+function found(values) {
+  const by_target = values["camera.look_at"] !== undefined;
+  const hour = Number(values["sun.time"]?.slice(11, 13));
+  const all = [
+    { key: "air.from_m", value: "34000", why: "0.45 times the distance of the horizon" },
+    { key: "air.scale_m", value: "46000", why: "0.6 times the distance of the horizon" },
+    { key: "air.rim_fade_m", value: "2700", why: "0.035 times the distance of the horizon" },
+    { key: "generalize.foreground_to_m", value: "32000", why: "0.42 times the distance of the horizon" },
+    { key: "generalize.background_from_m", value: "73000", why: "0.95 times the distance of the horizon" },
+    ...(by_target
+      ? [{ key: "camera.tilt_deg", value: "3.25", why: "an eighth of the picture is sky" }]
+      : [
+          { key: "camera.azimuth_deg", value: "180", why: "it shows most" },
+          { key: "camera.pitch_deg", value: "-12", why: "an eighth of the picture is sky" },
+        ]),
+    { key: "sun.azimuth_deg", value: hour ? String(15 * hour + 3.47) : "68", why: hour ? "at that time" : "upper left of the picture" },
+    { key: "sun.altitude_deg", value: hour ? String(hour + 11.21) : "31", why: hour ? "at that time" : "as painters place it" },
+    { key: "deform.exaggeration", value: "1.5", why: "as tall as in painted panoramas" },
+    { key: "deform.exaggeration_base_m", value: "560", why: "a tenth of the ground lies below" },
+    { key: "style.scale", value: "1.37", why: "by the painting's size" },
+  ];
+  const open = (key) => values[key] === undefined || values[key] === "auto";
+  return all.filter(({ key }) => open(key) && (key !== "deform.exaggeration_base_m" || open("deform.exaggeration")));
+}
+let derived = []; // of the last picture
+
 const scene = { text: first_text, saved: first_text, revision: 1, undo: [], redo: [], step: "", outside: false, drawn: null };
 let newest = 0; // of the requests for pictures
 let slow_ms = 0; // what each of them takes longer: POST mock/slow
@@ -92,24 +119,7 @@ function state() {
     drawn: scene.drawn,
     drawn_file: "mock_drawn.geojson",
     values,
-    derived: [
-      { key: "air.from_m", value: "34000", why: "0.45 times the distance of the horizon" },
-      { key: "air.scale_m", value: "46000", why: "0.6 times the distance of the horizon" },
-      { key: "air.rim_fade_m", value: "2700", why: "0.035 times the distance of the horizon" },
-      { key: "generalize.foreground_to_m", value: "32000", why: "0.42 times the distance of the horizon" },
-      { key: "generalize.background_from_m", value: "73000", why: "0.95 times the distance of the horizon" },
-      { key: "camera.azimuth_deg", value: "180", why: "it shows most" },
-      { key: "camera.pitch_deg", value: "-12", why: "an eighth of the picture is sky" },
-      { key: "camera.tilt_deg", value: "0", why: "" },
-      {
-        key: "sun.azimuth_deg",
-        value: String(values["sun.time"] ? Number(values["sun.time"].slice(11, 13)) * 15 : 68),
-        why: "upper left of the picture",
-      },
-      { key: "sun.altitude_deg", value: "31", why: "as painters place it" },
-      { key: "deform.exaggeration", value: "1.5", why: "as tall as in painted panoramas" },
-      { key: "deform.exaggeration_base_m", value: "560", why: "a tenth of the ground lies below" },
-    ],
+    derived,
     error: null,
     notes: [],
     outside: scene.outside,
@@ -133,15 +143,18 @@ function back(from, to) {
   ++scene.revision;
 }
 
-const rungs = () => {
+// The ladder of a page: the last rung has the width that it asks for, and no more than the sheet.
+const rungs = (query) => {
   const { values } = parse(scene.text);
+  const width = Math.min(values["output.width"], Math.max(64, Math.min(2400, Number(query?.get("width") || 1000))));
+  const misty = Object.keys(values).some((key) => key.startsWith("air.mist.")) ? ["mist"] : [];
   const ratio = values["output.height"] / values["output.width"];
   const rung = (index, name, width, without) => ({ rung: index, name, width, height: Math.round(width * ratio), without });
   return [
-    rung(0, "light and colour", 400, ["fine ground", "rock relief", "strokes", "paint"]),
-    rung(1, "fine ground", 800, ["rock relief", "strokes", "paint"]),
+    rung(0, "light and colour", 400, ["fine ground", "rock relief", "strokes", "paint", ...misty]),
+    rung(1, "fine ground", 800, ["rock relief", "strokes", "paint", ...misty]),
     rung(2, "strokes", 1000, ["paint"]),
-    rung(3, "paint", 1000, []),
+    rung(3, "paint", width, []),
   ];
 };
 
@@ -208,7 +221,7 @@ const answers = {
     change(scene.saved, "");
     return state();
   },
-  "GET api/rungs": () => rungs(),
+  "GET api/rungs": (query) => rungs(query),
   "GET api/stage": () => ({ stage: "", done: 0 }),
   "GET api/pointer": async (query) => {
     await sleep(slow_ms);
@@ -318,7 +331,7 @@ const answers = {
   "POST api/files": (query) => {
     const name = query.get("name");
     if (/[/\\]/.test(name)) throw new Fault({ message: "a name without folders" });
-    const kind = { tif: "terrain", gpx: "track", geojson: "features", jpg: "painting", toml: "scene" }[name.split(".").at(-1)] ?? "other";
+    const kind = { tif: "terrain", gpx: "track", geojson: "features", jpg: "painting", toml: "scene", csv: "names" }[name.split(".").at(-1)] ?? "other";
     return { file: name, kind };
   },
   // The mock's own: a file changed by another program.
@@ -339,11 +352,13 @@ const pictures = {
   "GET api/picture": async (query, response) => {
     if (Number(query.get("revision")) !== scene.revision) throw superseded();
     const mine = ++newest;
-    const { width, height, without } = rungs()[Number(query.get("rung"))];
+    const { width, height, without } = rungs(query)[Number(query.get("rung"))];
     const started = performance.now();
     await sleep(slow_ms + 5 + 30 * Number(query.get("rung")));
     if (mine !== newest) throw superseded();
-    const bytes = png(draw(parse(scene.text).values, width, height));
+    const { values } = parse(scene.text);
+    derived = found(values);
+    const bytes = png(draw(values, width, height));
     image(response, bytes, {
       "X-Belvedere-Revision": scene.revision,
       "X-Belvedere-Without": without.join(", "),
@@ -355,7 +370,7 @@ const pictures = {
     if (jobs.render.state === "running") throw superseded();
     if (Number(query.get("revision")) !== scene.revision) throw superseded();
     const mine = ++newest;
-    const { width, height } = rungs().at(-1);
+    const { width, height } = rungs(query).at(-1);
     const picture = draw(parse(scene.text).values, width, height);
     const record = (header, bytes = Buffer.alloc(0)) => {
       const text = Buffer.from(JSON.stringify({ ...header, bytes: bytes.length }));

@@ -745,6 +745,318 @@ test("a hundred drags leave nothing behind", async () => {
   assert.ok(last.nodes < first.nodes + 400, `${first.nodes} nodes, then ${last.nodes}`);
 });
 
+// A change as another program would ask for it, and the page that follows it.
+async function ask(...changes) {
+  await page.evaluate(async (asked) => fetch("api/set", { method: "POST", body: JSON.stringify({ changes: asked }) }), changes);
+  await keys("u"); // draw again
+  const { revision } = await scene();
+  await page.waitForFunction((now) => Number(document.body.dataset.revision) === now, patience, revision);
+  await finished();
+}
+const shown = (key) =>
+  page.$eval(`[data-key='${key}'] input[type=number]`, (field) => ({
+    value: field.value === "" ? null : Number(field.value),
+    grey: field.closest(".row").classList.contains("is-auto"),
+  }));
+const press_auto = (key) => page.$eval(`[data-key='${key}'] .auto`, (button) => button.click());
+const back_to = async (text) => {
+  await page.evaluate((wanted) => document.activeElement?.blur() ?? wanted, text);
+  await page.evaluate(async (wanted) => fetch("api/text", { method: "POST", body: JSON.stringify({ text: wanted }) }), text);
+  await keys("u");
+  const { revision } = await scene();
+  await page.waitForFunction((now) => Number(document.body.dataset.revision) === now, patience, revision);
+  await finished();
+};
+
+test("the sun by date and time is that of the picture, and stays when the time is switched off", { skip: no_mock }, async () => {
+  const { text } = await scene();
+  await panel("sun");
+  await page.click("#sun-timed");
+  await becomes("sun.time", `${new Date().getFullYear()}-06-21T09:00:00+02:00`);
+  await finished();
+  const told = (await scene()).derived;
+  const of = (key) => Number(told.find((each) => each.key === key).value);
+  await page.waitForFunction((wanted) => document.querySelector(".dial").getAttribute("aria-valuenow") === wanted, patience, String(Math.round(of("sun.azimuth_deg"))));
+  assert.equal(await page.$eval(".arc", (arc) => arc.getAttribute("aria-valuenow")), String(Math.round(of("sun.altitude_deg"))));
+  assert.ok(Math.abs((await shown("sun.azimuth_deg")).value - of("sun.azimuth_deg")) < 0.06);
+  assert.ok(Math.abs((await shown("sun.altitude_deg")).value - of("sun.altitude_deg")) < 0.06);
+  // Another time, switched off while its picture is being drawn.
+  await slow(300);
+  await page.$eval(".by-time input[type=time]", (clock) => {
+    clock.value = "16:00";
+    clock.dispatchEvent(new Event("change", { bubbles: true }));
+  });
+  await page.$eval("#sun-timed", (input) => input.click());
+  await becomes("sun.azimuth_deg", 15 * 16 + 3.47);
+  await becomes("sun.altitude_deg", 16 + 11.21);
+  assert.equal(await value("sun.time"), undefined);
+  await slow(0);
+  await back_to(text);
+});
+
+test("fields left to the program show what is in effect, and auto writes no other number", { skip: no_mock }, async () => {
+  const { text } = await scene();
+  await ask(
+    { key: "camera.tilt_deg", remove: true },
+    { key: "style.file", value: "monet" },
+    { key: "air.mist", append: { kind: "valley", radius_m: 8000, position: [690000, 5247000] } },
+  );
+  const wanted = {
+    camera: { "camera.tilt_deg": 3.25 },
+    ground: { "deform.background_exaggeration": 1.6, "deform.exaggeration_base_m": 0 },
+    look: { "style.scale": 1.37 },
+    air: { "air.from_m": 34000, "air.mist.0.visibility_m": 500, "air.mist.0.patches": 0.35 },
+    lights: { "light.regions.0.altitude_deg": 30 },
+  };
+  for (const [id, values] of Object.entries(wanted)) {
+    await panel(id);
+    await page.$$eval(`#panel-${id} details`, (found) => {
+      for (const each of found) each.open = true;
+    });
+    await sleep(100);
+    for (const [key, number] of Object.entries(values)) {
+      assert.deepEqual(await shown(key), { value: number, grey: true }, key);
+      await press_auto(key);
+      await becomes(key, number);
+      await press_auto(key);
+      await changed(key, number);
+    }
+  }
+  await back_to(text);
+});
+
+test("what was typed out of range stays with its reason beside it", async () => {
+  await panel("camera");
+  const row = "[data-key='camera.field_of_view_deg']";
+  const { revision } = await scene();
+  await page.$eval(`${row} input[type=number]`, (input) => input.select());
+  await page.type(`${row} input[type=number]`, "500");
+  await page.keyboard.press("Tab");
+  await page.waitForSelector(`${row} .fault:not([hidden])`, patience);
+  assert.equal(await text_of(`${row} .fault`), "1 … 360 °");
+  assert.equal(await page.$eval(`${row} input[type=number]`, (input) => input.value), "500");
+  await page.$eval(`${row} input[type=number]`, (input) => input.select());
+  await page.type(`${row} input[type=number]`, "45");
+  await page.waitForSelector(`${row} .fault[hidden]`, patience);
+  assert.equal((await scene()).revision, revision, "nothing was asked for");
+  await page.keyboard.press("Enter");
+  await becomes("camera.field_of_view_deg", 45);
+  await undo();
+});
+
+// The bend through points as the program makes it (terrain/deform/bend_curve.cpp): tangents by distance, monotone, added up.
+function drops_of(points, distances) {
+  const x = points.map((each) => each.distance_m);
+  const y = points.map((each) => -Math.tan((each.inclination_deg * Math.PI) / 180));
+  const run = x.slice(1).map((each, k) => each - x[k]);
+  const rise = run.map((each, k) => (y[k + 1] - y[k]) / each);
+  const end = (r0, r1, s0, s1) => {
+    const t = ((2 * r0 + r1) * s0 - r0 * s1) / (r0 + r1);
+    return t * s0 <= 0 ? 0 : s0 * s1 < 0 && Math.abs(t) > 3 * Math.abs(s0) ? 3 * s0 : t;
+  };
+  const tangent = x.map((_, k) => {
+    if (k === 0) return end(run[0], run[1], rise[0], rise[1]);
+    if (k === x.length - 1) return end(run.at(-1), run.at(-2), rise.at(-1), rise.at(-2));
+    if (rise[k - 1] * rise[k] <= 0) return 0;
+    const [before, behind] = [2 * run[k] + run[k - 1], run[k] + 2 * run[k - 1]];
+    return (before + behind) / (before / rise[k - 1] + behind / rise[k]);
+  });
+  const slope = (d) => {
+    if (d <= x[0]) return y[0];
+    if (d >= x.at(-1)) return y.at(-1);
+    const k = x.findLastIndex((each) => each <= d);
+    const [t, h] = [d - x[k], run[k]];
+    const [square, cube] = [(3 * rise[k] - 2 * tangent[k] - tangent[k + 1]) / h, (tangent[k] + tangent[k + 1] - 2 * rise[k]) / h ** 2];
+    return y[k] + t * (tangent[k] + t * (square + t * cube));
+  };
+  const step = 50;
+  const all = [0];
+  for (let d = step; d <= 200000; d += step) all.push(all.at(-1) + step * slope(d - step / 2));
+  const highest = Math.min(...all);
+  return distances.map((d) => all[Math.round(d / step)] - highest);
+}
+
+test("points describe the same bend to the far end, and lead back to the parabola that was there", { skip: no_mock }, async () => {
+  const { text } = await scene();
+  await ask({ key: "deform.bend.far_from_m", value: 60000 }, { key: "deform.bend.far_amount_per_m", value: 0.000002 });
+  const names = ["radius_m", "crest_m", "far_from_m", "far_amount_per_m"].map((name) => `deform.bend.${name}`);
+  const { values } = await scene();
+  const [radius, crest, from, amount] = names.map((name) => values[name]);
+  await panel("ground");
+  const press = (label) =>
+    page.evaluate((wanted) => [...document.querySelectorAll(".bend button")].find((each) => each.textContent === wanted).click(), label);
+  await press("Shape it by points");
+  await changed("deform.bend.points.0.distance_m", undefined);
+  const now = (await scene()).values;
+  const points = [];
+  for (let k = 0; now[`deform.bend.points.${k}.distance_m`] !== undefined; ++k)
+    points.push({ distance_m: now[`deform.bend.points.${k}.distance_m`], inclination_deg: now[`deform.bend.points.${k}.inclination_deg`] });
+  const distances = [0, 20000, 40000, 55000, 60000, 65000, 82000, 90000];
+  const drops = drops_of(points, distances);
+  distances.forEach((d, k) => {
+    const wanted = (d - crest) ** 2 / (2 * radius) + (d > from ? amount * (d - from) ** 2 : 0);
+    const highest = Math.min(...Array.from({ length: 1000 }, (_, m) => (100 * m - crest) ** 2 / (2 * radius) + (100 * m > from ? amount * (100 * m - from) ** 2 : 0)));
+    assert.ok(Math.abs(drops[k] - (wanted - highest)) < 15, `${drops[k]} m at ${d} m, not ${wanted - highest} m`);
+  });
+  await press("Back to the parabola");
+  await becomes("deform.bend.points.0.distance_m", undefined);
+  assert.deepEqual(names.map((name) => values[name]), await Promise.all(names.map(value)));
+  await back_to(text);
+});
+
+test("a table of names is added to the points with names", async () => {
+  const file = join(await mkdtemp(join(tmpdir(), "studio-")), `names ${Date.now()}.csv`);
+  await writeFile(file, "name,kind,rank,ele,lon,lat\nBettelwurf,summit,2,2726,11.5,47.34\n");
+  const { text } = await scene();
+  await (await page.$("#choose-files")).uploadFile(file);
+  await page.waitForSelector("#files-list .buttons button", patience);
+  assert.match(await text_of("#files-list"), /a table of names/);
+  assert.equal(await text_of("#files-list .buttons button"), "Take its names");
+  await page.click("#files-list .buttons button");
+  assert.match(await changed("labels.points.0.file", undefined), /^names.*csv$/);
+  await undo();
+  assert.equal((await scene()).text, text);
+  await finished();
+});
+
+test("previews of a scene with mist say that they lack it", { skip: no_mock }, async () => {
+  const { text } = await scene();
+  const said = async () => {
+    await page.evaluate(() => {
+      window.lacks = new Set();
+      new MutationObserver(() => window.lacks.add(document.getElementById("rung").textContent)).observe(document.getElementById("rung"), { childList: true });
+    });
+    await slow(200);
+    await keys("u");
+    await finished();
+    await slow(0);
+    return (await page.evaluate(() => [...window.lacks])).join("; ");
+  };
+  assert.doesNotMatch(await said(), /mist/);
+  await ask({ key: "air.mist", append: { kind: "valley", radius_m: 8000, position: [690000, 5247000] } });
+  assert.match(await said(), /without [^;]*mist/);
+  await back_to(text);
+});
+
+test("the page is as it was when it is loaded again: panel, kept version, folds, proposals", async () => {
+  const { text } = await scene();
+  await panel("air");
+  await page.click("#panel-air .more > summary");
+  await keys("k");
+  await page.click("#propose");
+  await page.waitForSelector(".proposal", { timeout: 4 * patience.timeout });
+  await finished();
+  const kept = () =>
+    page.$eval("#kept", (canvas) => {
+      const { data } = canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1);
+      return [...data];
+    });
+  const before = await kept();
+  const field = await value("camera.field_of_view_deg");
+  await keys("]");
+  await page.focus("#picture");
+  await keys("]");
+  await changed("camera.field_of_view_deg", field);
+  await page.reload();
+  await finished();
+  assert.equal(await page.evaluate(() => document.body.dataset.panel), "air");
+  assert.equal(await page.$eval("#panel-air .more", (more) => more.open), true);
+  await page.waitForSelector(".proposal", { timeout: 4 * patience.timeout });
+  await page.click("#compare");
+  await page.waitForSelector("#border:not([hidden])", patience);
+  (await kept()).forEach((each, k) => assert.ok(Math.abs(each - before[k]) < 20, "the picture that was kept"));
+  await page.click("#to-kept");
+  await becomes("camera.field_of_view_deg", field);
+  await page.click("#compare");
+  await page.click("#panel-air .more > summary");
+  await finished();
+  await back_to(text);
+});
+
+const undo_all_of = async (key, wanted) => {
+  while ((await value(key)) !== wanted) await undo();
+  await finished();
+};
+
+test("the last rung has the pixels of its frame, also of another window", async () => {
+  await ask({ key: "output.width", value: 3000 }, { key: "output.height", value: 1400 });
+  const { text } = await scene();
+  const sizes = () =>
+    page.evaluate(() => [
+      document.getElementById("picture").width,
+      Math.round(document.getElementById("frame").getBoundingClientRect().width * window.devicePixelRatio),
+    ]);
+  const agree = async () => {
+    await page.waitForFunction(
+      () => {
+        const frame = document.getElementById("frame").getBoundingClientRect().width * window.devicePixelRatio;
+        return Math.abs(document.getElementById("picture").width - frame) <= 1 && document.body.dataset.working === "false";
+      },
+      patience,
+    ).catch(() => {});
+    const [canvas, frame] = await sizes();
+    assert.ok(Math.abs(canvas - frame) <= 1, `${canvas} px in ${frame} px`);
+  };
+  await agree();
+  await page.setViewport({ width: 1600, height: 1000 });
+  await agree();
+  const [wide] = await sizes();
+  assert.ok(wide > 1100, `${wide} px`);
+  await page.setViewport({ width: 1280, height: 720, deviceScaleFactor: 2 });
+  await agree();
+  await page.setViewport({ width: 1280, height: 720 });
+  assert.equal((await scene()).text, text);
+  await undo_all_of("output.width", 2400);
+});
+test("each panel begins with a few controls, the rest is folded", async () => {
+  for (const id of ["camera", "sun", "ground", "equalizer", "air", "look", "paint", "names", "output"]) {
+    await panel(id);
+    await page.waitForSelector(`#panel-${id} details.more:not([open])`, patience);
+    await sleep(50);
+    const rows = await page.$$eval(`#panel-${id} .row`, (found) => found.filter((each) => each.checkVisibility()).map((each) => each.textContent));
+    assert.ok(rows.length <= 7, `${id}: ${rows.length} rows`);
+  }
+  await panel("camera");
+});
+
+test("in a low window the picture has two thirds of what is beside the settings", { skip: no_mock }, async () => {
+  const share = () =>
+    page.evaluate(() => {
+      const box = (id) => document.getElementById(id).getBoundingClientRect();
+      const beside = document.querySelector("aside").getBoundingClientRect().left;
+      return (box("frame").width * box("frame").height + box("status").width * box("status").height) / (beside * window.innerHeight);
+    });
+  assert.ok((await share()) >= 0.65, `${await share()}`);
+  await page.click("#fold");
+  assert.equal(await page.$eval("#dock", (dock) => dock.checkVisibility()), false);
+  assert.ok((await share()) >= 0.65, `${await share()}`);
+  await page.click("#fold");
+});
+
+test("on an upright tablet no label is cut", async () => {
+  await page.setViewport({ width: 820, height: 1180, hasTouch: true });
+  for (const id of await page.$$eval("#tabs button", (tabs) => tabs.map((each) => each.id.slice(4)))) {
+    await panel(id);
+    await page.$$eval(`#panel-${id} details`, (found) => {
+      for (const each of found) each.open = true;
+    });
+    await sleep(60);
+    const cut = await page.evaluate(() =>
+      [...document.querySelectorAll("aside label, aside .label, aside h3, aside button, header button, header .button")]
+        .filter((each) => each.checkVisibility() && (each.scrollWidth > each.clientWidth + 1 || each.getBoundingClientRect().right > window.innerWidth + 1))
+        .filter((each) => getComputedStyle(each).display !== "inline")
+        .map((each) => `${each.textContent} (${each.scrollWidth} in ${each.clientWidth} px)`),
+    );
+    assert.deepEqual(cut, [], id);
+    await page.$$eval(`#panel-${id} details.more`, (found) => {
+      for (const each of found) each.open = false;
+    });
+  }
+  await panel("camera");
+  await page.setViewport({ width: 1280, height: 720 });
+  await finished();
+});
+
 test("a file changed outside is told", { skip: Boolean(process.env.BELVEDERE_STUDIO) }, async () => {
   await page.evaluate(() => fetch("mock/outside", { method: "POST" }));
   await page.waitForSelector("#outside:not([hidden])", patience);

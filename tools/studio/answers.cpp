@@ -127,17 +127,17 @@ Json scene_json(const SceneSession& session, const std::vector<DerivedValue>& de
       .add("outside", Json::boolean(session.is_changed_outside()));
 }
 
-Json rungs_json(const LoadedScene& scene) {
+Json rungs_json(const LoadedScene& scene, const std::vector<Rung>& rungs) {
   Json out = Json::array();
-  for (std::size_t i = 0; i < rungs().size(); ++i) {
-    const Rung& rung = rungs()[i];
+  for (std::size_t i = 0; i < rungs.size(); ++i) {
+    const Rung& rung = rungs[i];
     const SceneOutput& size = scene_of_rung(scene, rung).scene.output;
     out.add(Json::object()
                 .add("rung", Json::number(static_cast<double>(i)))
                 .add("name", Json::text(rung.name))
                 .add("width", Json::number(size.width))
                 .add("height", Json::number(size.height))
-                .add("without", Json::texts(rung.without)));
+                .add("without", Json::texts(lacks_of(scene, rung))));
   }
   return out;
 }

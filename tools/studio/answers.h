@@ -23,8 +23,8 @@ namespace belvedere::tools {
 Json error_json(const Error& error);
 Json scene_json(const SceneSession& session, const std::vector<DerivedValue>& derived,
                 const std::vector<std::string>& notes);
-// All rungs, and the size of each picture.
-Json rungs_json(const LoadedScene& scene);
+// Rungs, the size of each picture, and what it lacks.
+Json rungs_json(const LoadedScene& scene, const std::vector<Rung>& rungs);
 // Names, tracks and margin over a picture: sizes in px of the print, drawings as elements of SVG.
 Json sheet_json(const LivePicture& picture);
 // The ground seen, on a grid of at most 360 columns, for what the page draws under the hand.

@@ -89,7 +89,8 @@ HttpAnswer StudioState::route(const HttpRequest& request) {
     if (name == "close") return json_answer(Json::object());
   } else {
     if (name == "scene") return change_scene([] {});
-    if (name == "rungs") return json_answer(rungs_json(moment(request).scene));
+    if (name == "rungs")
+      return json_answer(rungs_json(moment(request).scene, rungs_asked(request)));
     if (name == "choices") return json_answer(choices_json());
     if (name == "schema") return {.body = scene_json_schema()};
     if (name == "picture") return picture(request);

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,6 +14,7 @@
 #include "base/text/text_encoding.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/scene_settings.h"
+#include "renderer/world/scene_style.h"
 #include "terrain/fetch/fetch_area.h"
 #include "tools/report/report_pictures.h"
 #include "tools/studio/http_server.h"
@@ -40,34 +43,65 @@ double share_of(const std::string& text, const std::string& name) {
   throw Error(ErrorKind::usage, name, fmt::format("\"{}\"", text), "0 … 1");
 }
 
+// What the scene leaves open, as this picture has it.
+std::vector<DerivedValue> values_in_effect(const LivePicture& picture, const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  const View& view = picture.view;
+  std::vector<DerivedValue> out = view.derived;
+  const auto add = [&](const char* key, double value, const char* why) {
+    out.push_back({key, fmt::format("{}", std::round(100.0 * value) / 100.0), why});
+  };
+  if (!scene.sun.time.empty()) {
+    add("sun.azimuth_deg", view.sun.azimuth_deg, "at the scene's date and time");
+    add("sun.altitude_deg", view.sun.altitude_deg, "at the scene's date and time");
+  }
+  if (view.target_altitude_m && !scene.camera.look_at_altitude_m)
+    add("camera.look_at_altitude_m", *view.target_altitude_m, "of the ground there");
+  if (!scene.style.scale)
+    if (const std::optional<Style> style = named_style(loaded))
+      add("style.scale", style->units_per_px, "by the painting's size");
+  return out;
+}
+
 }  // namespace
 
-void StudioState::remember(std::shared_ptr<const LivePicture> made, std::uint64_t revision,
+void StudioState::remember(std::shared_ptr<const LivePicture> made, const Moment& of,
                            std::vector<std::string> told) {
+  std::vector<DerivedValue> found = values_in_effect(*made, of.scene);
   const std::lock_guard guard(mutex);
   last = std::move(made);
-  last_revision = revision;
-  derived = last->view.derived;
+  last_revision = of.revision;
+  derived = std::move(found);
   notes = std::move(told);
+}
+
+std::vector<Rung> StudioState::rungs_asked(const HttpRequest& request) {
+  constexpr int min_px = 64;
+  constexpr int max_px = 2400;
+  std::vector<Rung> out = rungs();
+  if (const std::string width = request.value("width"); !width.empty())
+    out.back().max_width_px = std::clamp(whole_number(width, "width"), min_px, max_px);
+  return out;
 }
 
 HttpAnswer StudioState::picture(const HttpRequest& request) {
   const int number = whole_number(request.value("rung"), "rung");
-  if (number < 0 || number >= static_cast<int>(rungs().size()))
+  const std::vector<Rung> ladder = rungs_asked(request);
+  if (number < 0 || number >= static_cast<int>(ladder.size()))
     throw Error(ErrorKind::usage, "rung", request.value("rung"), "a number of api/rungs");
-  const Rung& rung = rungs()[static_cast<std::size_t>(number)];
+  const Rung& rung = ladder[static_cast<std::size_t>(number)];
   const Moment now = moment(request);
   std::vector<std::string> told;
   const auto begun = std::chrono::steady_clock::now();
   exact.cancel();
   const auto made = std::make_shared<const LivePicture>(
       (rung.is_last() ? exact : quick).paint(now.scene, rung, run, &told));
-  remember(made, now.revision, std::move(told));
+  remember(made, now, std::move(told));
   HttpAnswer out = rung.is_last() ? picture_answer(png_bytes(made->colour), "image/png")
                                   : picture_answer(jpeg_bytes(made->colour), "image/jpeg");
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begun;
   out.headers["X-Belvedere-Revision"] = fmt::format("{}", now.revision);
-  std::vector<std::string> without = rung.without;
+  std::vector<std::string> without = lacks_of(now.scene, rung);
   if (made->halved > 0)
     without.insert(without.begin(), fmt::format("landforms below {:.0f} m", made->shortest_m));
   out.headers["X-Belvedere-Without"] = fmt::format("{}", fmt::join(without, ", "));
@@ -84,7 +118,7 @@ HttpAnswer StudioState::tiles(const HttpRequest& request) {
                 "the last rung once it is done");
   const Moment now = moment(request);
   HttpAnswer out{.type = "application/octet-stream"};
-  out.stream = [this, scene = now.scene, revision = now.revision](const SendPart& send) {
+  out.stream = [this, now, rung = rungs_asked(request).back()](const SendPart& send) {
     bool gone = false;
     const auto record = [&](const Json& header, const std::string& bytes = "") {
       const std::string text = header.str();
@@ -92,8 +126,7 @@ HttpAnswer StudioState::tiles(const HttpRequest& request) {
       if (gone) exact.cancel();
     };
     try {
-      const Rung& rung = rungs().back();
-      const SceneOutput size = scene_of_rung(scene, rung).scene.output;
+      const SceneOutput size = scene_of_rung(now.scene, rung).scene.output;
       double made_px = 0.0;
       std::vector<std::string> told;
       const auto use = [&](PixelRect rect, const Grid<glm::vec3>& colour) {
@@ -115,8 +148,8 @@ HttpAnswer StudioState::tiles(const HttpRequest& request) {
                    .add("done", Json::number(0.99 * made_px / size.width / size.height)));
       };
       const auto made =
-          std::make_shared<const LivePicture>(exact.paint(scene, rung, run, &told, use, tell));
-      remember(made, revision, std::move(told));
+          std::make_shared<const LivePicture>(exact.paint(now.scene, rung, run, &told, use, tell));
+      remember(made, now, std::move(told));
       record(Json::object().add("bytes", Json::number(0)).add("done", Json::number(1)));
     } catch (const Error& error) {
       record(error_json(error).add("bytes", Json::number(0)));
@@ -133,7 +166,7 @@ std::shared_ptr<const LivePicture> StudioState::last_picture(const HttpRequest& 
   return last;
 }
 
-// Waits for the engine of the last rung, and ends what that draws.
+// Waits for the last rung, and is ended by the next one.
 HttpAnswer StudioState::loupe(const HttpRequest& request) {
   const Moment now = moment(request);
   const SceneOutput& print = now.scene.scene.output;
@@ -156,7 +189,7 @@ HttpAnswer StudioState::loupe(const HttpRequest& request) {
                    .max_width_px = print.width,
                    .names = false,
                    .part = PixelRect{low.x, low.y, low.x + size.x, low.y + size.y}};
-  const LivePicture made = exact.paint(now.scene, whole, run);
+  const LivePicture made = exact.paint_beside(now.scene, whole, run);
   HttpAnswer out = picture_answer(png_bytes(made.colour), "image/png");
   out.headers["X-Belvedere-Left"] = fmt::format("{}", low.x);
   out.headers["X-Belvedere-Top"] = fmt::format("{}", low.y);
@@ -241,7 +274,7 @@ std::string kind_of(const std::string& name) {
       {".gpx", "track"},    {".geojson", "features"}, {".gpkg", "features"}, {".shp", "features"},
       {".kml", "features"}, {".tif", "terrain"},      {".tiff", "terrain"},  {".asc", "terrain"},
       {".hgt", "terrain"},  {".jpg", "painting"},     {".jpeg", "painting"}, {".png", "painting"},
-      {".toml", "scene"}};
+      {".toml", "scene"},   {".csv", "names"}};
   for (const auto& [known, kind] : kinds)
     if (extension == known) return kind;
   return "other";

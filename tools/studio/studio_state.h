@@ -58,10 +58,12 @@ struct StudioState {
   // The scene after a change, which ends the pictures of the one before.
   HttpAnswer change_scene(const std::function<void()>& change);
   // Keeps what the page asks about the last picture: pointer, values left open, notes.
-  void remember(std::shared_ptr<const LivePicture> made, std::uint64_t revision,
+  void remember(std::shared_ptr<const LivePicture> made, const Moment& of,
                 std::vector<std::string> told);
   // The last picture; Error(interrupted) where it is not of the revision that is asked about.
   std::shared_ptr<const LivePicture> last_picture(const HttpRequest& request);
+  // The ladder of a page: the last rung has the width that the request names.
+  static std::vector<Rung> rungs_asked(const HttpRequest& request);
 
   HttpAnswer rendered(const std::string& name);
   HttpAnswer picture(const HttpRequest& request);

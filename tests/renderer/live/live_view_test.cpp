@@ -295,6 +295,18 @@ TEST(Rungs, SayWhatTheyLeaveOut) {
   }
 }
 
+TEST(Rungs, LackMistAndFeaturesWhereTheSceneHasThem) {
+  LoadedScene scene = test::small_scene();
+  for (const Rung& rung : rungs()) EXPECT_EQ(lacks_of(scene, rung), rung.without) << rung.name;
+  scene.scene.air.mist.emplace_back();
+  scene.scene.features.emplace_back();
+  for (const Rung& rung : rungs()) {
+    std::vector<std::string> all = rung.without;
+    if (!rung.strokes) all.insert(all.end(), {"mist", "features"});
+    EXPECT_EQ(lacks_of(scene, rung), all) << rung.name;
+  }
+}
+
 TEST(Rungs, TheLastDrawsTheSceneAsItIs) {
   for (const LoadedScene& scene :
        {test::small_scene(), file_scene({"output.width=800", "output.height=320"})}) {

@@ -48,6 +48,20 @@ TEST_F(StudioTest, EveryRungHasItsPicture) {
   }
 }
 
+TEST_F(StudioTest, TheLastRungHasTheWidthOfThePage) {
+  set("output.width", 480);
+  const auto width = [&](const char* asked) {
+    return got("api/rungs", {{"width", asked}}).back()["width"].get<int>();
+  };
+  EXPECT_EQ(width("300"), 300);
+  EXPECT_EQ(width("10"), 64);
+  EXPECT_EQ(width("9999"), 480) << "no wider than the sheet";
+  EXPECT_EQ(got("api/rungs", {{"width", "100"}})[0]["width"], got("api/rungs")[0]["width"]);
+  const std::string last = std::to_string(rungs().size() - 1);
+  EXPECT_EQ(decoded(get("api/picture", {{"rung", last}, {"width", "300"}})).width(), 300);
+  EXPECT_EQ(get("api/rungs", {{"width", "wide"}}).status, 422);
+}
+
 TEST_F(StudioTest, PicturesFollowTheScene) {
   const std::string before = get("api/picture", {{"rung", "0"}}).body;
   set("sun.azimuth_deg", 100);
@@ -413,6 +427,7 @@ TEST_F(StudioTest, FilesAreWrittenBesideTheSceneAndNeverOverAnother) {
                                                                   {"b.geojson", "features"},
                                                                   {"c.jpg", "painting"},
                                                                   {"d.toml", "scene"},
+                                                                  {"e.csv", "names"},
                                                                   {"Zürich.xyz", "other"}})
     EXPECT_EQ(json::parse(upload(name, "x").body)["kind"], kind) << name;
 }

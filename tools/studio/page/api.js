@@ -37,7 +37,7 @@ export const api = {
   scene: () => get("api/scene"),
   schema: () => get("api/schema"),
   choices: () => get("api/choices"),
-  rungs: () => get("api/rungs"),
+  rungs: (width) => get(`api/rungs?width=${width}`), // of the last one, px
   stage: () => get("api/stage"),
   map: () => get("api/map"),
   names: (revision) => get(`api/names?revision=${revision}`),
@@ -55,8 +55,8 @@ export const api = {
   map_picture: (revision) => `api/map.png?of=${revision}`, // of the newest scene, whatever its revision
   thumbnail: (index, turn) => `api/proposals/${index}.jpg?turn=${turn}`,
 
-  async picture(rung, revision, signal) {
-    const response = await answered(`api/picture?rung=${rung}&revision=${revision}`, { signal });
+  async picture(rung, revision, width, signal) {
+    const response = await answered(`api/picture?rung=${rung}&revision=${revision}&width=${width}`, { signal });
     const without = response.headers.get("X-Belvedere-Without");
     return {
       blob: await response.blob(),
@@ -73,8 +73,8 @@ export const api = {
   },
 
   // Records of the last rung as they come: {x, y, width, height, done, stage, blob}.
-  async *tiles(revision, signal) {
-    const response = await answered(`api/tiles?revision=${revision}`, { signal });
+  async *tiles(revision, width, signal) {
+    const response = await answered(`api/tiles?revision=${revision}&width=${width}`, { signal });
     const read = reader(response.body.getReader());
     for (;;) {
       const size = await read(4);

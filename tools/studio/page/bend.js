@@ -1,11 +1,15 @@
 // The bend: how much level ground tilts towards the viewer, by distance. Either the parabola (radius and crest) or a curve through points
 // that are dragged in a chart; the numbers stand below it.
 import { row } from "./controls.js";
+import { view } from "./camera.js";
 import { clamp, draggable, drawing, element, rounded } from "./dom.js";
+import { recall, remember } from "./memory.js";
 import { new_step, running_step } from "./store.js";
 
 const size = { width: 288, height: 132, left: 26, bottom: 18, top: 8, right: 8 };
 const key = "deform.bend.points";
+const names = ["radius_m", "crest_m", "far_from_m", "far_amount_per_m"].map((name) => `deform.bend.${name}`);
+const fine_deg = 0.001; // a tenth of a degree is 170 m in 100 km
 const degree = Math.PI / 180;
 
 export class Bend {
@@ -23,25 +27,26 @@ export class Bend {
     this.chart.append(this.grid, this.line);
     this.chart.addEventListener("dblclick", (event) => this.add(...this.place(event)));
     this.parabola = [
-      { key: "deform.bend.radius_m", label: "Radius", unit: "m", min: 0, max: 1000000, step: 1000, log: 10000 },
-      { key: "deform.bend.crest_m", label: "Level at", unit: "m", min: 0, max: 300000, step: 500, log: 1000 },
+      { key: "deform.bend.radius_m", label: "Radius", unit: "m", min: 0, max: 1000000, step: 1000, log: 10000, otherwise: () => 0 },
+      { key: "deform.bend.crest_m", label: "Level at", unit: "m", min: 0, max: 300000, step: 500, log: 1000, otherwise: () => 0 },
       { key: "deform.bend.far_from_m", label: "Sinks faster from", unit: "m", min: 0, max: 300000, step: 500, log: 1000 },
       { key: "deform.bend.far_amount_per_m", label: "How much faster", unit: "1/m", min: 0, max: 0.0001, step: 0.0000001 },
     ].map((spec) => row(store, { ...spec, when: () => store.count(key) === 0 }));
     this.table = element("div", { class: "points" });
     this.by_points = element("button", { type: "button", class: "wide", click: () => this.to_points() }, "Shape it by points");
-    this.more = element("button", { type: "button", class: "wide", click: () => this.add_one() }, "One point more");
+    this.one_more = element("button", { type: "button", class: "wide", click: () => this.add_one() }, "One point more");
     this.by_parabola = element("button", { type: "button", class: "wide", click: () => this.to_parabola() }, "Back to the parabola");
     this.element = element(
       "div",
       { class: "bend" },
       this.chart,
-      ...this.parabola.map((each) => each.element),
+      ...this.parabola.slice(0, 2).map((each) => each.element),
       this.table,
       this.by_points,
-      this.more,
+      this.one_more,
       this.by_parabola,
     );
+    this.more = element("section", {}, element("h3", {}, "Bend in the distance"), ...this.parabola.slice(2).map((each) => each.element));
   }
   rows() {
     return this.parabola;
@@ -81,8 +86,9 @@ export class Bend {
     this.show_grips(points);
     this.show_table(points);
     for (const each of this.parabola) each.update();
+    this.more.hidden = points.length > 0;
     this.by_points.hidden = points.length > 0;
-    this.more.hidden = this.by_parabola.hidden = points.length === 0;
+    this.one_more.hidden = this.by_parabola.hidden = points.length === 0;
   }
   x(distance) {
     return size.left + ((size.width - size.left - size.right) * distance) / this.far;
@@ -174,7 +180,10 @@ export class Bend {
         this.held = true;
         return new_step();
       },
-      move: (event, step) => this.move(index, ...this.place(event), step),
+      move: (event, step) => {
+        const [distance, value] = this.place(event);
+        this.move(index, distance, rounded(value, 0.1), step);
+      },
       end: () => {
         this.held = false;
         this.update();
@@ -210,7 +219,7 @@ export class Bend {
         { key: `${at}.distance_m`, value: clamp(rounded(distance, 1), low, high) },
         this.drops
           ? { key: `${at}.drop_m`, value: Math.round(value) }
-          : { key: `${at}.inclination_deg`, value: clamp(rounded(value, 0.1), -80, 80) },
+          : { key: `${at}.inclination_deg`, value: clamp(rounded(value, fine_deg), -80, 80) },
       ],
       step,
     );
@@ -232,9 +241,12 @@ export class Bend {
     const distance = element("input", { type: "number", step: 0.1, min: 0, "aria-label": `Point ${index + 1}, distance in km` });
     const value = element("input", { type: "number", step: 0.1, "aria-label": `Point ${index + 1}, value` });
     const unit = element("span", { class: "unit" });
-    const send = () => this.move(index, 1000 * Number(distance.value), Number(value.value), new_step());
-    distance.addEventListener("change", send);
-    value.addEventListener("change", send);
+    // The other number keeps the digits that are not shown.
+    const now = () => this.points()[index];
+    distance.addEventListener("change", () =>
+      this.move(index, 1000 * Number(distance.value), (this.drops ? now().drop : now().tilt) ?? 0, new_step()),
+    );
+    value.addEventListener("change", () => this.move(index, now().distance, Number(value.value), new_step()));
     const remove = element(
       "button",
       { type: "button", class: "remove", "aria-label": `Remove point ${index + 1}`, title: "Remove", click: () => this.remove(index) },
@@ -252,7 +264,7 @@ export class Bend {
       key,
       append: this.drops
         ? { distance_m: Math.round(each.distance), drop_m: Math.round(each.drop) }
-        : { distance_m: Math.round(each.distance), inclination_deg: rounded(each.tilt, 0.1) },
+        : { distance_m: Math.round(each.distance), inclination_deg: rounded(each.tilt, fine_deg) },
     }));
     this.store.edit([...more, ...away, ...made], new_step());
   }
@@ -275,22 +287,35 @@ export class Bend {
     if (this.points().length > 2) this.store.edit([{ key: `${key}.${index}`, remove: true }], new_step());
     else this.to_parabola();
   }
+  // Where the data end, as seen from the viewer, and beyond the crest.
+  far_end() {
+    const { extent } = this.store.map ?? {};
+    const [x, y] = view(this.store).viewer;
+    const corners = extent ? [0, 2].flatMap((k) => [1, 3].map((l) => Math.hypot(extent[k] - x, extent[l] - y))) : [];
+    return Math.max(20000, 1.3 * (this.store.number("deform.bend.crest_m") ?? 0), ...corners);
+  }
+  // The same curve through points. Its tilt is straight by distance but for a bend where the ground begins to sink faster, with two points
+  // close by that keep it straight on both sides.
   to_points() {
-    const crest = this.store.number("deform.bend.crest_m") || 80000;
-    const names = ["radius_m", "crest_m", "far_from_m", "far_amount_per_m"].map((name) => `deform.bend.${name}`);
-    const points = [0.25, 0.6, 1].map((share) => ({ distance: share * crest, tilt: Math.max(0, this.tilt(share * crest)) }));
+    const far = this.far_end();
+    const crest = this.store.number("deform.bend.crest_m") || far / 2;
+    const faster = this.store.number("deform.bend.far_amount_per_m") > 0 ? this.store.number("deform.bend.far_from_m") : 0;
+    const close = 0.02 * far;
+    const wanted = [0, crest / 2, crest, far, ...(faster > 0 && faster < far ? [faster - close, faster, faster + close] : [])];
+    const distances = [];
+    for (const each of wanted.sort((a, b) => a - b))
+      if (each >= 0 && each <= far && each - (distances.at(-1) ?? -Infinity) >= close / 2) distances.push(each);
+    const given = names.filter((name) => this.store.given(name)).map((name) => ({ key: name, value: this.store.value(name) }));
+    remember("parabola", given);
     this.drops = false;
     this.write(
-      points,
-      names.filter((name) => this.store.given(name)).map((name) => ({ key: name, remove: true })),
+      distances.map((distance) => ({ distance, tilt: this.tilt(distance) })),
+      given.map((each) => ({ key: each.key, remove: true })),
     );
   }
+  // The parabola that was there before the points; the program's own where there was none.
   to_parabola() {
-    this.store.edit(
-      this.points()
-        .map((_, index) => ({ key: `${key}.${index}`, remove: true }))
-        .reverse(),
-      new_step(),
-    );
+    const away = this.points().map((_, index) => ({ key: `${key}.${index}`, remove: true }));
+    this.store.edit([...away.reverse(), ...(recall("parabola") ?? [])], new_step());
   }
 }

@@ -36,8 +36,8 @@ function kind_of(store, key) {
   return { ...out, kind: "text" };
 }
 
-// A row for {key, label, unit, min, max, step, log, kind, words}: min, max and step are the slider's; the number field takes all that the
-// schema allows.
+// A row for {key, label, unit, min, max, step, log, kind, words, otherwise}: min, max and step are the slider's; the number field takes all
+// that the schema allows. otherwise(store, block) is what is in effect where the key is left out and the program tells nothing of it.
 export function row(store, spec) {
   const about = kind_of(store, spec.key);
   if (!about) return null;
@@ -52,6 +52,7 @@ export function row(store, spec) {
     made.element.hidden = spec.when ? !spec.when(store) : false;
     if (!made.element.hidden) shown();
   };
+  made.told = (reason) => show_fault(made, reason ? { message: reason } : null);
   return made;
 }
 
@@ -116,7 +117,8 @@ function number_row(store, spec, about) {
   const auto = can_auto ? element("button", { type: "button", class: "auto", title: "The program chooses" }, spec.auto ?? "auto") : null;
   auto?.setAttribute("aria-label", `${spec.label}: the program chooses`);
   const reset = reset_button(store, spec);
-  const current = () => (spec.get ? spec.get(store) : store.number(spec.key));
+  const block = spec.key.slice(0, spec.key.lastIndexOf("."));
+  const current = () => (spec.get ? spec.get(store) : (store.number(spec.key) ?? spec.otherwise?.(store, block)));
   const change = (value, at) => (spec.set ? store.edit(spec.set(store, value), at) : set(store, spec.key, value, at));
 
   let moving = null;
@@ -130,13 +132,19 @@ function number_row(store, spec, about) {
     moving = null;
   });
   let typing = false;
+  let refused = null; // the revision at which what was typed is out of range: it stays with its reason until it or the scene is changed
   field.addEventListener("input", () => {
     typing = true;
+    if (refused !== null) control.told(null);
+    refused = null;
   });
   field.addEventListener("change", () => {
     typing = false;
     if (field.value.trim() === "" || !Number.isFinite(Number(field.value))) return update();
-    change(Number(field.value), new_step());
+    const reason = out_of_range(Number(field.value), about, spec.unit);
+    if (!reason) return change(Number(field.value), new_step());
+    refused = store.state.revision;
+    control.told(reason);
   });
   // Arrow keys step by what is sensible for the key: ten of them with Shift, a tenth with Alt.
   field.addEventListener("keydown", (event) => {
@@ -152,10 +160,11 @@ function number_row(store, spec, about) {
     moving = null;
     typing = false;
   });
+  // Pressed again it keeps the number that is in effect; where none is known it is typed.
   auto?.addEventListener("click", () => {
-    if (!spec.set && auto.getAttribute("aria-pressed") === "true") {
-      const value = store.number(spec.key) ?? min;
-      return set(store, spec.key, rounded(value, step));
+    if (auto.getAttribute("aria-pressed") === "true") {
+      const value = current();
+      return value === undefined ? field.focus() : change(value, new_step());
     }
     store.edit([about.auto ? { key: spec.key, value: "auto" } : { key: spec.key, remove: true }], new_step());
   });
@@ -164,8 +173,12 @@ function number_row(store, spec, about) {
     const value = current();
     const itself = store.value(spec.key);
     const is_auto = can_auto && (itself === undefined || itself === "auto");
+    if (refused !== null && refused !== store.state.revision) {
+      refused = null;
+      control.told(null);
+    }
     // What is being typed stays.
-    if (!typing) field.value = value === undefined ? "" : rounded(value, Math.min(step, spec.log ? 0.1 : step) / 10);
+    if (!typing && refused === null) field.value = value === undefined ? "" : rounded(value, Math.min(step, spec.log ? 0.1 : step) / 10);
     slider.value = value === undefined ? slider.min : to_slider(clamp(value, min, max));
     slider.setAttribute("aria-valuetext", `${field.value} ${spec.unit ?? ""}`);
     slider.style.setProperty("--at", `${(100 * (slider.value - slider.min)) / (slider.max - slider.min)}%`);
@@ -173,6 +186,7 @@ function number_row(store, spec, about) {
     made.classList.toggle("is-auto", is_auto);
     const why = store.derived(spec.key)?.why;
     if (auto) auto.title = why ? `The program chooses: ${why}` : "The program chooses";
+    if (auto) auto.hidden = spec.by_itself?.(store) ?? false;
     show_reset(store, spec, about, reset);
   }
   const made = element(
@@ -183,7 +197,15 @@ function number_row(store, spec, about) {
     element("span", { class: "value" }, field, element("span", { class: "unit" }, spec.unit ?? "")),
     slider,
   );
-  return { element: made, update, focus: () => field.focus() };
+  const control = { element: made, update, focus: () => field.focus() };
+  return control;
+}
+
+// Why a number cannot be taken: "5 … 50 km"; empty where it can.
+function out_of_range(value, { min, max, whole }, unit) {
+  if (!(value < min || value > max || (whole && !Number.isInteger(value)))) return "";
+  const range = min === undefined ? `up to ${max}` : max === undefined || max > 1e15 ? `${min} or more` : `${min} … ${max}`;
+  return `${range} ${unit ?? ""}`.trim() + (whole ? ", a whole number" : "");
 }
 
 function switch_row(store, spec, about) {

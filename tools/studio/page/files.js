@@ -19,12 +19,14 @@ const uses = {
     { label: "Draw its features", changes: (file) => [{ key: "features", append: { source: file } }] },
     { label: "Take its names", changes: (file) => [{ key: "labels.points", append: { file } }] },
   ],
+  names: [{ label: "Take its names", changes: (file) => [{ key: "labels.points", append: { file } }] }],
   painting: [{ label: "Copy its paint", changes: (file) => [{ key: "exemplar", append: { picture: file } }] }],
 };
 const kinds = {
   terrain: "a terrain",
   track: "a track",
   features: "a file of features",
+  names: "a table of names",
   painting: "a painting",
   scene: "a scene",
   other: "a file",

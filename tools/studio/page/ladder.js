@@ -11,6 +11,7 @@ export class Ladder {
     this.picture = picture;
     this.tell = tell; // {rung, rungs, name, halved, without, milliseconds, working, done, stage, fault}
     this.rungs = [];
+    this.width = 0; // px that were asked for the last rung
     this.abort = new AbortController();
     this.timer = 0;
     this.first = null; // the signal with which first rungs are being drawn
@@ -23,9 +24,26 @@ export class Ladder {
     this.rest = async () => {}; // called when the hand rests and the first rung is there
   }
 
+  // The last rung has the pixels of its frame, whose shape the rungs tell.
   async read_rungs() {
-    this.rungs = await api.rungs();
-    this.picture.resize(this.rungs.at(-1));
+    for (let attempt = 0; attempt < 2; ++attempt) {
+      const width = this.picture.wanted_width();
+      if (attempt > 0 && width === this.width) return;
+      this.rungs = await api.rungs(width);
+      this.width = width;
+      this.picture.resize(this.rungs.at(-1));
+    }
+  }
+  // The frame has another size: the last rung is drawn again at that.
+  async fit(revision) {
+    if (this.rungs.length === 0 || this.picture.wanted_width() === this.width) return;
+    const before = this.rungs.at(-1).width;
+    if (this.first) return this.read_rungs(); // the last rung is still to come
+    this.stop();
+    await this.read_rungs();
+    if (this.first) return;
+    if (this.rungs.at(-1).width !== before) this.complete = false;
+    return this.resume(revision);
   }
 
   stop() {
@@ -90,7 +108,7 @@ export class Ladder {
       this.tell({ ...this.about(rung), working: true });
       const started = performance.now();
       const seen = this.picture.view(); // the scene may be another one when the answer comes
-      const { blob, milliseconds, halved, without } = await api.picture(rung, revision, signal);
+      const { blob, milliseconds, halved, without } = await api.picture(rung, revision, this.width, signal);
       await this.picture.show(blob, seen);
       clearInterval(waits);
       waits = 0;
@@ -121,7 +139,7 @@ export class Ladder {
     const started = performance.now();
     this.tell({ ...this.about(last), working: true, done: 0 });
     let complete = false;
-    for await (const record of api.tiles(revision, signal)) {
+    for await (const record of api.tiles(revision, this.width, signal)) {
       if (signal.aborted) return;
       if (record.blob) await this.picture.tile(record, this.rungs[last]);
       complete = record.done >= 1;

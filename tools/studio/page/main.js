@@ -11,6 +11,7 @@ import { Ladder } from "./ladder.js";
 import { Map_view } from "./map.js";
 import { Names } from "./names.js";
 import { Drawing } from "./draw.js";
+import { recall, remember } from "./memory.js";
 import { Panels } from "./panels.js";
 import { panels as table } from "./panels_table.js";
 import { Picture } from "./picture.js";
@@ -18,6 +19,8 @@ import { Proposals } from "./proposals.js";
 import { Status } from "./status.js";
 import { Store } from "./store.js";
 import { Text } from "./text.js";
+
+const resize_rest_ms = 400; // a window rests when its size has not changed for so long
 
 async function start() {
   const [schema, choices, state] = await Promise.all([api.schema(), api.choices(), api.scene()]);
@@ -60,14 +63,26 @@ async function start() {
   ladder.drawn = (revision) => names.read(revision);
   ladder.rest = (signal) => Promise.all([map.read(), store.refresh(), check.read(signal)]);
 
+  // A frame that has grown, or another window, has its own pixels: they are drawn when the hand rests.
+  let resting = 0;
+  const fit = () => {
+    clearTimeout(resting);
+    resting = setTimeout(() => sized && ladder.fit(store.state.revision).catch((error) => store.fail(error)), resize_rest_ms);
+  };
+  window.addEventListener("resize", fit);
+  picture.fitted = () => ladder.width > 0 && picture.wanted_width() > ladder.width && fit();
+
   const compare = (on) => {
     const shows = picture.compare(on);
     by_id("compare").setAttribute("aria-pressed", String(shows));
     if (shows) picture.border.focus();
   };
+  const has_kept = () => {
+    by_id("compare").disabled = by_id("to-kept").disabled = false;
+  };
   const keep = () => {
     picture.keep();
-    by_id("compare").disabled = by_id("to-kept").disabled = false;
+    has_kept();
     status.say("Kept. C compares with it.");
   };
   by_id("keep").addEventListener("click", keep);
@@ -76,6 +91,13 @@ async function start() {
   by_id("to-kept").addEventListener("click", to_kept);
   const alone = () => document.body.classList.toggle("alone");
   by_id("alone").addEventListener("click", alone);
+  const fold = (folded) => {
+    document.body.classList.toggle("folded", folded);
+    by_id("fold").setAttribute("aria-expanded", String(!folded));
+    remember("folded", folded);
+  };
+  by_id("fold").addEventListener("click", () => fold(!document.body.classList.contains("folded")));
+  fold(recall("folded") ?? false);
   const guides = () => by_id("guides").toggleAttribute("hidden");
   by_id("show-guides").addEventListener("click", guides);
   const help = () => by_id("help-dialog").showModal();
@@ -91,6 +113,7 @@ async function start() {
     k: ["keep this version", keep],
     c: ["compare with the kept version", () => picture.kept_text !== null && compare(!picture.comparing())],
     f: ["the picture alone, and back", alone],
+    d: ["map, critique and proposals, folded and open", () => by_id("fold").click()],
     g: ["guides: thirds, and an eighth of sky", guides],
     n: ["names on the picture", () => names.show(!names.on)],
     t: [
@@ -126,10 +149,14 @@ async function start() {
   // The program ends with its page.
   window.addEventListener("pagehide", () => navigator.sendBeacon("api/close", "{}"));
 
-  panels.show("camera");
+  const panel = recall("panel");
+  panels.show(by_id(`tab-${panel}`) ? panel : "camera");
+  store.on("panel", (id) => remember("panel", id));
+  if (await picture.restore().catch(() => false)) has_kept();
   await store.act(async () => state);
   await store.drawn;
   document.body.dataset.ready = "true";
+  proposals.restore();
 }
 
 start().catch((error) => {

@@ -5,39 +5,29 @@ import { row, show_fault } from "./controls.js";
 import { by_id, element, rounded } from "./dom.js";
 import { Equalizer } from "./equalizer.js";
 import { Blocks } from "./lists.js";
+import { recall, remember } from "./memory.js";
 import { panels } from "./panels_table.js";
 import { new_step } from "./store.js";
 import { Sun } from "./sun.js";
 import { weights } from "./weights.js";
 
 export class Panels {
-  // more: editors that are made elsewhere, by name.
-  constructor(store, hands, more = {}) {
+  // beside: editors that are made elsewhere, by name.
+  constructor(store, hands, beside = {}) {
     this.store = store;
     this.hands = hands;
     this.made = new Map(); // id: what is shown in it, each with element, update() and rows
     this.shown = null;
-    const editors = { sun: Sun, bend: Bend, equalizer: Equalizer };
-    const actions = { target: () => hands.target(), angles: () => this.by_angles() };
-    for (const { id, label, groups } of panels) {
+    this.editors = { sun: Sun, bend: Bend, equalizer: Equalizer };
+    this.actions = { target: () => hands.target(), angles: () => this.by_angles() };
+    this.beside = beside;
+    for (const { id, label, groups, more } of panels) {
       const parts = [];
       const box = element("div", { id: `panel-${id}`, role: "tabpanel", "aria-labelledby": `tab-${id}`, hidden: true });
-      for (const group of groups) {
-        const section = element("section", {}, element("h3", {}, group.title));
-        for (const spec of group.rows ?? []) this.add(parts, section, row(store, spec));
-        for (const { label: text, action, when } of group.actions ?? []) {
-          const button = element("button", { type: "button", class: "wide", click: actions[action] }, text);
-          this.add(parts, section, {
-            element: button,
-            update: () => {
-              button.hidden = when ? !when(store) : false;
-            },
-          });
-        }
-        if (group.list) this.add(parts, section, new Blocks(store, hands, group.list));
-        if (group.editor === "weights") for (const each of weights(store)) this.add(parts, section, each);
-        else if (group.editor) this.add(parts, section, more[group.editor] ?? new editors[group.editor](store));
-        box.append(section);
+      box.append(...groups.map((group) => this.section(parts, group)));
+      if (more) {
+        const own = parts.map((part) => part.more).filter(Boolean); // of editors
+        box.append(this.folded(id, [...own, ...more.map((group) => this.section(parts, group))]));
       }
       this.made.set(id, parts);
       by_id("panels").append(box);
@@ -45,6 +35,38 @@ export class Panels {
     }
     for (const kind of ["state", "map", "pending"]) store.on(kind, () => this.update());
     store.on("fault", (fault) => this.fault(fault));
+  }
+  section(parts, group) {
+    const { store, hands } = this;
+    const section = element("section", {}, element("h3", {}, group.title));
+    if (group.when)
+      parts.push({
+        element: section,
+        update: () => {
+          section.hidden = !group.when(store);
+        },
+      });
+    for (const spec of group.rows ?? []) this.add(parts, section, row(store, spec));
+    for (const { label: text, action, when } of group.actions ?? []) {
+      const button = element("button", { type: "button", class: "wide", click: this.actions[action] }, text);
+      this.add(parts, section, {
+        element: button,
+        update: () => {
+          button.hidden = when ? !when(store) : false;
+        },
+      });
+    }
+    if (group.list) this.add(parts, section, new Blocks(store, hands, group.list));
+    if (group.editor === "weights") for (const each of weights(store)) this.add(parts, section, each);
+    else if (group.editor) this.add(parts, section, this.beside[group.editor] ?? new this.editors[group.editor](store));
+    return section;
+  }
+  // What is not needed often; it is found open if it was left open.
+  folded(id, sections) {
+    const more = element("details", { class: "more" }, element("summary", {}, "More"), ...sections);
+    more.open = recall(`more ${id}`) ?? false;
+    more.addEventListener("toggle", () => remember(`more ${id}`, more.open));
+    return more;
   }
   add(parts, section, part) {
     if (!part) return;
@@ -129,6 +151,8 @@ export class Panels {
       for (const each of this.rows(id))
         if (each.element.dataset.key === key) {
           this.show(id);
+          const folded = each.element.closest(".more");
+          if (folded) folded.open = true;
           each.element.scrollIntoView({ block: "center" });
           each.focus();
           return true;

@@ -2,8 +2,11 @@
 // with the hand until the next one is there. Nothing is kept but two canvases.
 import { by_id, clamp, draggable, element } from "./dom.js";
 import { view } from "./camera.js";
+import { recall, remember } from "./memory.js";
 
 const max_width = 4096; // px of the canvas
+const rung_px = [64, 2400]; // what the program draws as the last rung
+const remembered = { width: 1400, characters: 2e6 }; // at most, of the kept picture
 
 export class Picture {
   constructor(store) {
@@ -15,6 +18,8 @@ export class Picture {
     this.kept_text = null; // the scene of the kept version
     this.share = 0.5;
     this.shown = null; // the view of the picture that is drawn
+    this.fitted = () => {}; // called when the frame has another size
+    this.frame_width = this.stage.clientWidth;
     this.listen();
     store.on("pending", () => this.glide());
   }
@@ -45,6 +50,12 @@ export class Picture {
     const frame = by_id("frame");
     frame.style.width = `${w}px`;
     frame.style.height = `${w / aspect}px`;
+    this.frame_width = w;
+    this.fitted();
+  }
+  // Pixels of the screen across the frame.
+  wanted_width() {
+    return clamp(Math.round(this.frame_width * window.devicePixelRatio), ...rung_px);
   }
 
   // The view of the scene as the program has it.
@@ -91,6 +102,20 @@ export class Picture {
     this.kept.height = this.canvas.height;
     this.kept.getContext("2d").drawImage(this.canvas, 0, 0);
     this.kept_text = this.store.state.text;
+    remember("kept", { text: this.kept_text, picture: small_jpeg(this.canvas) });
+  }
+  // The version that was kept before the page was loaded again; false if there is none.
+  async restore() {
+    const { text, picture } = recall("kept") ?? {};
+    if (!text || !picture) return false;
+    const bytes = Uint8Array.from(atob(picture.split(",")[1]), (each) => each.charCodeAt(0));
+    const bitmap = await createImageBitmap(new Blob([bytes]));
+    this.kept.width = bitmap.width;
+    this.kept.height = bitmap.height;
+    this.kept.getContext("2d").drawImage(bitmap, 0, 0);
+    bitmap.close();
+    this.kept_text = text;
+    return true;
   }
   comparing() {
     return !this.kept.hidden;
@@ -122,4 +147,13 @@ export class Picture {
       this.set_share(this.share + steps[event.key]);
     });
   }
+}
+
+// A picture that a page can remember; none if it is too large for that.
+function small_jpeg(canvas) {
+  const scale = Math.min(1, remembered.width / canvas.width);
+  const small = element("canvas", { width: Math.round(scale * canvas.width), height: Math.round(scale * canvas.height) });
+  small.getContext("2d").drawImage(canvas, 0, 0, small.width, small.height);
+  const url = small.toDataURL("image/jpeg", 0.9);
+  return url.length <= remembered.characters ? url : null;
 }

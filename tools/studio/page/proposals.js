@@ -1,6 +1,7 @@
 // Other compositions of the same ground, as `belvedere new` proposes them: thumbnails to take.
 import { api } from "./api.js";
 import { by_id, element } from "./dom.js";
+import { recall, remember } from "./memory.js";
 import { new_step } from "./store.js";
 
 export class Proposals {
@@ -11,6 +12,10 @@ export class Proposals {
     this.turn = 0;
     by_id("propose").addEventListener("click", () => this.read());
   }
+  // Asks again for those that were there before the page was loaded again.
+  async restore() {
+    if (recall("proposals")) await this.read();
+  }
 
   async read() {
     const box = by_id("proposals");
@@ -20,6 +25,7 @@ export class Proposals {
     try {
       const { proposals } = await api.proposals();
       ++this.turn;
+      remember("proposals", true);
       box.replaceChildren(...proposals.map((each) => this.one(each)));
       if (proposals.length === 0) box.append(element("p", { class: "none" }, "There is nothing to propose for this ground."));
     } catch (error) {

@@ -127,6 +127,13 @@ export class Store extends EventTarget {
       this.leave();
     }
   }
+  // When nothing is on its way and the newest picture is there.
+  async settle() {
+    do {
+      while (this.busy || this.queue.length > 0) await new Promise((resolve) => this.waiting.push(resolve));
+      await this.drawn;
+    } while (this.busy || this.queue.length > 0);
+  }
   draw() {
     this.drawn = this.after(this.state.revision).catch((error) => this.fail(error));
   }

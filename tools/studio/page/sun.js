@@ -1,4 +1,5 @@
-// The sun: a dial for its direction, an arc for its altitude, and the same by date and time of day.
+// The sun: a dial for its direction, an arc for its altitude, and the same by date and time of day. All show the sun of the picture, which
+// by date and time only the program knows.
 import { view } from "./camera.js";
 import { row } from "./controls.js";
 import { clamp, draggable, drawing, element, rounded } from "./dom.js";
@@ -53,9 +54,27 @@ export class Sun {
     );
     this.listen();
 
+    this.seen = { azimuth: 315, altitude: 30 }; // what was told last
+    const angle = { unit: "°", step: 0.5, by_itself: () => this.is_timed() };
     this.numbers = [
-      row(store, { key: "sun.azimuth_deg", label: "Azimuth", unit: "°", min: 0, max: 360, step: 0.5 }),
-      row(store, { key: "sun.altitude_deg", label: "Altitude", unit: "°", min: -20, max: 90, step: 0.5 }),
+      row(store, {
+        ...angle,
+        key: "sun.azimuth_deg",
+        label: "Azimuth",
+        min: 0,
+        max: 360,
+        get: () => this.azimuth(),
+        set: (_, value) => this.changes(value, undefined),
+      }),
+      row(store, {
+        ...angle,
+        key: "sun.altitude_deg",
+        label: "Altitude",
+        min: -20,
+        max: 90,
+        get: () => this.altitude(),
+        set: (_, value) => this.changes(undefined, value),
+      }),
     ];
     this.timed = element("input", { type: "checkbox", id: "sun-timed", role: "switch", change: () => this.switch_time() });
     this.date = element("input", { type: "date", "aria-label": "Date", change: () => this.set_time() });
@@ -104,11 +123,15 @@ export class Sun {
     return [...this.numbers, this.time_row];
   }
 
+  is_timed() {
+    return this.store.value("sun.time") !== undefined;
+  }
+  // A picture that is still being drawn does not yet tell where its sun stands: it is shown where it was.
   azimuth() {
-    return this.store.number("sun.azimuth_deg") ?? 315;
+    return (this.seen.azimuth = this.store.number("sun.azimuth_deg") ?? this.seen.azimuth);
   }
   altitude() {
-    return this.store.number("sun.altitude_deg") ?? 30;
+    return (this.seen.altitude = this.store.number("sun.altitude_deg") ?? this.seen.altitude);
   }
 
   update() {
@@ -139,16 +162,20 @@ export class Sun {
     this.minutes.value = minutes_of(time.clock);
   }
 
-  // Both angles are given together: one alone would leave the other to the program.
+  // One angle instead of a time takes the other with it, which else would be left to the program.
+  changes(azimuth, altitude) {
+    const both = this.is_timed();
+    const changes = [];
+    if (both || azimuth !== undefined) changes.push({ key: "sun.azimuth_deg", value: rounded(azimuth ?? full(this.azimuth()), 0.01) });
+    if (both || altitude !== undefined) changes.push({ key: "sun.altitude_deg", value: rounded(altitude ?? this.altitude(), 0.01) });
+    return changes;
+  }
   set(azimuth, altitude, step) {
-    const changes = [{ key: "sun.azimuth_deg", value: rounded(full(azimuth), 0.5) }];
-    if (altitude !== undefined || this.store.value("sun.time") !== undefined)
-      changes.push({ key: "sun.altitude_deg", value: clamp(rounded(altitude ?? this.altitude(), 0.5), -90, 90) });
-    this.store.edit(changes, step);
+    const up = altitude === undefined ? undefined : clamp(rounded(altitude, 0.5), -90, 90);
+    this.store.edit(this.changes(azimuth === undefined ? undefined : rounded(full(azimuth), 0.5), up), step);
   }
   lift_to(altitude, step) {
-    if (this.store.value("sun.time") !== undefined) return this.set(this.azimuth(), altitude, step);
-    this.store.edit([{ key: "sun.altitude_deg", value: clamp(rounded(altitude, 0.5), -20, 90) }], step);
+    this.set(undefined, clamp(altitude, -20, 90), step);
   }
   listen() {
     const angle_of = (event, svg, [cx, cy]) => {
@@ -189,8 +216,15 @@ export class Sun {
     keys(this.arc, (by) => this.lift_to(this.altitude() + by, running_step("sun-altitude")));
   }
 
-  switch_time() {
-    if (!this.timed.checked) return this.set(this.azimuth(), this.altitude(), new_step());
+  // Switched off it leaves the sun where it stands in the picture of the last time.
+  async switch_time() {
+    if (!this.timed.checked) {
+      this.timed.disabled = true;
+      await this.store.settle();
+      await this.store.refresh().catch((error) => this.store.fail(error));
+      this.timed.disabled = false;
+      return this.is_timed() && this.store.edit(this.changes(), new_step());
+    }
     const now = this.store.value("season.date");
     const year = new Date().getFullYear();
     this.send(/^\d\d-\d\d$/.test(now ?? "") ? `${year}-${now}` : `${year}-06-21`, "09:00", "+02:00", new_step());
