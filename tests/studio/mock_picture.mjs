@@ -114,6 +114,35 @@ export function draw(values, width, height) {
   return { width, height, rgb };
 }
 
+// The ground of the mock under a share of the picture, {distance, position, altitude} or null for the sky: it rises to the horizon at a fifth
+// of the height, and an edge across the middle hides 3 km of it. Ridges stand 5400 m apart in the left half, 1350 m in the right one.
+export function ground(values, x, y) {
+  if (y < 0.2) return null;
+  const { viewer, azimuth, field } = camera(values);
+  const distance = y < 0.5 ? 60000 * (1.05 - y) : 60000 * (1 - y) + 1000;
+  const bearing = (azimuth + (x - 0.5) * field) * degree;
+  const position = [viewer[0] + distance * Math.sin(bearing), viewer[1] + distance * Math.cos(bearing)];
+  return { distance, position, altitude: 2600 - 1800 * y + 120 * Math.sin((2 * Math.PI * position[0]) / (x < 0.5 ? 5400 : 1350)) };
+}
+
+// The answer of api/seen.
+export function seen(values, width, height) {
+  const { viewer } = camera(values);
+  const out = Buffer.alloc(24 + 16 * width * height);
+  out.writeUInt32LE(width, 0);
+  out.writeUInt32LE(height, 4);
+  out.writeDoubleLE(viewer[0], 8);
+  out.writeDoubleLE(viewer[1], 16);
+  for (let i = 0; i < width * height; ++i) {
+    const found = ground(values, ((i % width) + 0.5) / width, (Math.floor(i / width) + 0.5) / height);
+    const { position, altitude, distance } = found ?? { position: [NaN, NaN], altitude: NaN, distance: Infinity };
+    [position[0] - viewer[0], position[1] - viewer[1], altitude, distance].forEach((value, plane) =>
+      out.writeFloatLE(value, 24 + 4 * (plane * width * height + i)),
+    );
+  }
+  return out;
+}
+
 export function relief(width, height) {
   const rgb = Buffer.alloc(3 * width * height);
   const z = (x, y) =>

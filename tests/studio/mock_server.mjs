@@ -4,7 +4,7 @@
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
 import { setTimeout as sleep } from "node:timers/promises";
-import { camera, draw, part, png, relief } from "./mock_picture.mjs";
+import { camera, draw, ground, part, png, relief, seen } from "./mock_picture.mjs";
 import { edit, Fault, parse, schema } from "./mock_scene.mjs";
 
 const token = "0123456789abcdef0123456789abcdef";
@@ -80,19 +80,22 @@ let derived = []; // of the last picture
 
 const scene = { text: first_text, saved: first_text, revision: 1, undo: [], redo: [], step: "", outside: false, drawn: null };
 let newest = 0; // of the requests for pictures
+let newest_loupe = 0;
+let job_s = 3; // POST mock/job
+let stage = { stage: "", done: 0 };
 let slow_ms = 0; // what each of them takes longer: POST mock/slow
 const jobs = { render: { state: "idle" }, fetch: { state: "idle" } };
 const timers = {};
 
-// A job of 3 s in two stages.
+// A job of two stages.
 function begin(name, stages, folder, result) {
   if (jobs[name].state === "running") throw new Fault({ message: "another one is running" });
   const started = Date.now();
-  jobs[name] = { state: "running", stage: stages[0], done: 0, elapsed_s: 0, left_s: 3, folder, error: null };
+  jobs[name] = { state: "running", stage: stages[0], done: 0, elapsed_s: 0, left_s: job_s, folder, error: null };
   timers[name] = setInterval(() => {
     const elapsed_s = (Date.now() - started) / 1000;
-    const done = Math.min(1, elapsed_s / 3);
-    Object.assign(jobs[name], { elapsed_s, done, left_s: 3 - elapsed_s, stage: stages[done > 0.5 ? 1 : 0] });
+    const done = Math.min(1, elapsed_s / job_s);
+    Object.assign(jobs[name], { elapsed_s, done, left_s: job_s - elapsed_s, stage: stages[done > 0.5 ? 1 : 0] });
     if (done < 1) return;
     clearInterval(timers[name]);
     Object.assign(jobs[name], { state: "done", ...result });
@@ -222,20 +225,18 @@ const answers = {
     return state();
   },
   "GET api/rungs": (query) => rungs(query),
-  "GET api/stage": () => ({ stage: "", done: 0 }),
+  "GET api/stage": () => stage,
   "GET api/pointer": async (query) => {
     await sleep(slow_ms);
-    const { viewer, azimuth, field } = camera(parse(scene.text).values);
     const y = Number(query.get("y"));
-    if (y < 0.2) return { sky: true };
-    const distance = 60000 * (1.05 - y);
-    const bearing = ((azimuth + (Number(query.get("x")) - 0.5) * field) * Math.PI) / 180;
+    const found = ground(parse(scene.text).values, Number(query.get("x")), y);
+    if (!found) return { sky: true };
     return {
       sky: false,
-      position: [viewer[0] + distance * Math.sin(bearing), viewer[1] + distance * Math.cos(bearing)],
+      position: found.position,
       lonlat: [11.4 + Number(query.get("x")) / 2, 47.5 - y / 4],
-      altitude_m: 2600 - 1800 * y,
-      distance_m: distance,
+      altitude_m: found.altitude,
+      distance_m: found.distance,
       class: y > 0.6 ? "forest" : "rock",
     };
   },
@@ -254,6 +255,7 @@ const answers = {
       azimuth_deg: azimuth,
       field_of_view_deg: field,
       handles: [],
+      cell_m: 30,
     };
   },
   "GET api/check": () => {
@@ -339,6 +341,10 @@ const answers = {
     scene.outside = true;
     return {};
   },
+  "POST mock/job": (_, body) => {
+    job_s = Number(body);
+    return {};
+  },
   "POST mock/slow": (_, body) => {
     slow_ms = Number(body);
     return {};
@@ -392,6 +398,28 @@ const pictures = {
     }
     response.end();
   },
+  "GET api/seen": (query, response) => {
+    if (Number(query.get("revision")) !== scene.revision) throw superseded();
+    const { values } = parse(scene.text);
+    const height = Math.round((360 * values["output.height"]) / values["output.width"]);
+    response.writeHead(200, { "Content-Type": "application/octet-stream" }).end(seen(values, 360, height));
+  },
+  "GET api/loupe": async (query, response) => {
+    const [x, y, width, height] = ["x", "y", "width", "height"].map((name) => Number(query.get(name)));
+    if (Number(query.get("revision")) !== scene.revision) throw superseded();
+    if (!(width <= 800 && height <= 800)) throw new Fault({ message: `${width} × ${height} px, allowed: 800` });
+    const mine = ++newest_loupe;
+    const { values } = parse(scene.text);
+    stage = { stage: "strokes", done: 0.4 };
+    await sleep(slow_ms + 900);
+    if (mine !== newest_loupe || Number(query.get("revision")) !== scene.revision) throw superseded();
+    stage = { stage: "", done: 0 };
+    const [print_width, print_height] = [values["output.width"], values["output.height"]];
+    const place = (share, size, whole) => Math.max(0, Math.min(whole - size, Math.round(share * whole - size / 2)));
+    const [left, top] = [place(x, width, print_width), place(y, height, print_height)];
+    const bytes = png(part(draw(values, print_width, print_height), left, top, width, height));
+    image(response, bytes, { "X-Belvedere-Left": left, "X-Belvedere-Top": top });
+  },
   "GET api/map.png": (_, response) => image(response, png(relief(600, 525))),
 };
 
@@ -412,7 +440,9 @@ async function answer(request, response) {
     }
     if (answers[name]) {
       const body = JSON.stringify(await answers[name](address.searchParams, Buffer.concat(chunks).toString()));
-      return response.writeHead(["POST api/render", "POST api/fetch"].includes(name) ? 202 : 200, { "Content-Type": "application/json" }).end(body);
+      return response
+        .writeHead(["POST api/render", "POST api/fetch"].includes(name) ? 202 : 200, { "Content-Type": "application/json" })
+        .end(body);
     }
     const file = path === "" ? "index.html" : path;
     if (!/^[a-z_]+\.(html|css|js|svg)$/.test(file)) return response.writeHead(404).end();

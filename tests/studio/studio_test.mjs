@@ -205,7 +205,10 @@ test("a slider, an upright slider of the equalizer and a number field", async ()
 test("one band more is a neutral one in front, so that the ground stays; one less takes it away", async () => {
   await panel("equalizer");
   const press = (label) =>
-    page.evaluate((wanted) => [...document.querySelectorAll(".equalizer button")].find((each) => each.textContent === wanted).click(), label);
+    page.evaluate(
+      (wanted) => [...document.querySelectorAll(".equalizer button")].find((each) => each.textContent === wanted).click(),
+      label,
+    );
   const [near, far] = [await value("generalize.foreground"), await value("generalize.background")];
   await press("One band more");
   assert.deepEqual(await changed("generalize.foreground", near), [1, ...near]);
@@ -487,6 +490,26 @@ const type_in = async (selector, text) => {
   await page.type(selector, text);
 };
 
+const at_rest = async () => {
+  await finished();
+  await page.waitForFunction(() => document.body.dataset.seen === document.body.dataset.revision, patience);
+};
+// Which parts of a canvas over the picture are drawn: a share of its pixels in a rectangle of shares.
+const drawn_in = (id, left, top, right, bottom) =>
+  page.evaluate(
+    (name, box) => {
+      const canvas = document.getElementById(name);
+      const [x0, y0, x1, y1] = box.map((share, k) => Math.round(share * (k % 2 ? canvas.height : canvas.width)));
+      if (x1 <= x0 || y1 <= y0) return 0;
+      const { data } = canvas.getContext("2d").getImageData(x0, y0, x1 - x0, y1 - y0);
+      let count = 0;
+      for (let k = 3; k < data.length; k += 4) count += data[k] > 60;
+      return (4 * count) / data.length;
+    },
+    id,
+    [left, top, right, bottom],
+  );
+
 const no_place = Boolean(process.env.BELVEDERE_STUDIO) && !process.env.BELVEDERE_PLACE;
 test("a change while the picture is rendered is drawn to the last rung when that is over", async () => {
   await page.click("#render");
@@ -551,6 +574,255 @@ test("a burst of changes is not replayed: the newest is drawn within two picture
   await finished();
   for (let k = 0; k < 30; ++k) await undo();
 });
+
+test("the sheet: a paper format, what the resolution means, and the paper around the picture", { skip: no_mock }, async () => {
+  await panel("output");
+  await page.waitForFunction(
+    () =>
+      /51 dpi on 1\s?200 mm: letters and strokes will look coarse; 300 dpi need 14\s173 px/.test(
+        document.getElementById("sheet-dpi").textContent,
+      ),
+    patience,
+  );
+  const { text } = await scene();
+  await page.select("#sheet-format", "A1");
+  await becomes("output.sheet_width_mm", 841);
+  assert.equal(await value("output.height"), 1100, "the picture keeps its shape");
+  await page.waitForFunction(() => /72 dpi on 841 mm/.test(document.getElementById("sheet-dpi").textContent), patience);
+  // The paper is A1 around the picture, which does not move out of its middle.
+  await page.keyboard.press("Escape");
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press("s");
+  const boxes = () =>
+    page.evaluate(() => ["paper", "frame", "trim"].map((id) => document.getElementById(id).getBoundingClientRect().toJSON()));
+  const [paper, frame, trim] = await boxes();
+  assert.ok(Math.abs(paper.width / paper.height - 841 / 594) < 0.01, `${paper.width} × ${paper.height}`);
+  assert.ok(Math.abs(frame.width - paper.width) < 1.5 && frame.height < 0.66 * paper.height);
+  assert.ok(Math.abs(trim.left - frame.left - (3 * frame.width) / 841) < 1.5, "3 mm of bleed are cut from the picture");
+  // With a margin the picture stands within the paper.
+  await page.evaluate(() =>
+    fetch("api/set", { method: "POST", body: JSON.stringify({ changes: [{ key: "margin.frame_mm", value: 60 }] }) }),
+  );
+  await keys("u");
+  await page.waitForFunction(() => /margin 60 mm/.test(document.getElementById("paper-says").textContent), patience);
+  const [around, picture_box] = await boxes();
+  assert.ok(Math.abs((picture_box.left - around.left) / picture_box.width - 60 / 841) < 0.01);
+  await keys("s");
+  assert.ok(await page.$("#paper[hidden]"));
+  // Filling the sheet changes the shape; 300 dpi the pixels.
+  await page.click("#sheet-keep");
+  await page.select("#sheet-format", "A3");
+  await becomes("output.sheet_width_mm", 300);
+  assert.ok((await value("output.height")) > 1200, "the picture fills the sheet");
+  await page.evaluate(() => [...document.querySelectorAll(".sheet button")].find((each) => each.textContent.startsWith("300 dpi")).click());
+  await becomes("output.width", 3543);
+  await page.waitForFunction(() => /300 dpi on 300 mm: sharp/.test(document.getElementById("sheet-dpi").textContent), patience);
+  await page.click("#sheet-keep");
+  while ((await scene()).text !== text) await undo();
+  await finished();
+});
+
+test("the loupe shows a piece as the print has it, where the hand rests, and Esc closes it", { skip: no_mock }, async () => {
+  await finished();
+  await page.focus("#picture");
+  await page.keyboard.press("l");
+  assert.match(await text_of("#hint"), /Click where/);
+  const before = await value("camera.look_at");
+  const asked = [];
+  const listen = (request) => request.url().includes("api/loupe") && asked.push(new URL(request.url()).searchParams);
+  page.on("request", listen);
+  const [x, y] = await middle("#picture");
+  await page.mouse.click(x, y);
+  await page.waitForFunction(() => /strokes …/.test(document.getElementById("loupe-says").textContent), patience);
+  const there = () =>
+    page.waitForFunction(() => /^1 : 1, 51 dpi; 240 mm/.test(document.getElementById("loupe-says").textContent), patience);
+  await there();
+  const canvas = () => page.$eval("#loupe-picture", ({ width, height }) => [width, height]);
+  assert.deepEqual(await canvas(), [480, 320]);
+  const share = async () =>
+    page.evaluate(() => {
+      const [frame, piece] = ["frame", "loupe-frame"].map((id) => document.getElementById(id).getBoundingClientRect());
+      return [piece.width / frame.width, (piece.left + piece.width / 2 - frame.left) / frame.width];
+    });
+  assert.ok(Math.abs((await share())[0] - 480 / 2400) < 0.01);
+  // Moving it asks once, when the hand rests; the view stays.
+  const count = asked.length;
+  await drag("#loupe-frame", 150, 20, 20);
+  await page.waitForFunction(() => /strokes …/.test(document.getElementById("loupe-says").textContent), patience);
+  await there();
+  assert.equal(asked.length, count + 1);
+  assert.ok((await share())[1] > 0.6);
+  assert.deepEqual(await value("camera.look_at"), before);
+  await page.keyboard.press("Escape");
+  assert.ok(await page.$("#loupe[hidden]"));
+  page.off("request", listen);
+});
+
+test("bands are told by the width of their forms, which are tinted in the picture", { skip: no_mock }, async () => {
+  await panel("equalizer");
+  await page.waitForFunction(() => /60–120 m/.test(document.querySelector(".bands").innerText.replaceAll("\n", "")), patience);
+  const labels = await page.$$eval(".column > .unit", (found) => found.map((each) => each.innerText.replace("\n", "")));
+  assert.deepEqual(labels, ["1.9–3.8 km", "1–1.9 km", "480–960 m", "240–480 m", "120–240 m", "60–120 m"]);
+  assert.equal(await page.$eval(".band input", (slider) => slider.title), "Near, forms 1.9 to 3.8 km wide");
+  // Both curves go through the thumbs; the neutral line is that of weight 1.
+  const lines = await page.$$eval(".curves path", (found) => found.map((each) => each.getAttribute("d")));
+  const neutral = Number(/M0,([\d.]+)/.exec(lines[0])[1]);
+  assert.ok(Math.abs(neutral - (7 + 94 * (1 - 1 / 3))) < 0.1);
+  const near = lines[2]
+    .slice(1)
+    .split("L")
+    .map((each) => Number(each.split(",")[1]));
+  assert.equal(near.length, 6);
+  assert.ok(near[0] < neutral && near[5] > neutral && Math.abs(near[3] - neutral) < 0.1, "1.2, 1.0 and 0.9");
+  // Ridges of the mock's ground are 2700 m wide in the left half and 675 m in the right one.
+  await at_rest();
+  const tint = async (index) => {
+    await (await page.$$(".column .band.foreground input[type=range]"))[index].focus();
+    const [left, right] = [await drawn_in("forms", 0.1, 0.55, 0.4, 0.9), await drawn_in("forms", 0.6, 0.55, 0.9, 0.9)];
+    assert.equal(await drawn_in("forms", 0, 0, 1, 0.19), 0, "nothing in the sky");
+    return [left, right];
+  };
+  await page.mouse.move(5, 5);
+  const wide = await tint(0);
+  assert.ok(wide[0] > 0.3 && wide[0] > 4 * wide[1], `1.9–3.8 km: ${wide}`);
+  const narrow = await tint(2);
+  assert.ok(narrow[1] > 0.3 && narrow[1] > 4 * narrow[0], `480–960 m: ${narrow}`);
+  await page.focus("#tab-equalizer");
+  assert.equal(await drawn_in("forms", 0, 0, 1, 1), 0, "no band, no tint");
+});
+
+test("a ring, a summit and the horizon are drawn under the hand, within a frame", { skip: no_mock }, async (context) => {
+  await panel("lights");
+  const before = await scene();
+  await page.evaluate(() => {
+    const block = document.querySelector("#panel-lights details");
+    block.open = true;
+  });
+  await at_rest();
+  const radius = "[data-key='light.regions.0.radius_m'] input[type=range]";
+  await page.waitForSelector(radius, { visible: true, ...patience });
+  const times = await page.evaluate(async (selector) => {
+    const slider = document.querySelector(selector);
+    const canvas = document.getElementById("feedback");
+    const out = [];
+    const begin = Number(slider.value);
+    for (let k = 0; k < 20; ++k) {
+      await new Promise((resolve) => setTimeout(resolve, 25));
+      slider.value = begin + 4 * (k + 1);
+      delete canvas.dataset.draws;
+      const start = performance.now();
+      slider.dispatchEvent(new Event("input", { bubbles: true }));
+      out.push(canvas.dataset.draws === "ring" ? performance.now() - start : Infinity);
+    }
+    slider.dispatchEvent(new Event("change", { bubbles: true }));
+    return out.sort((a, b) => a - b);
+  }, radius);
+  context.diagnostic(`ring: median ${times[10].toFixed(1)} ms, slowest ${times[19].toFixed(1)} ms`);
+  // Other programs of the machine take their share: a quarter of the moves tells what the page needs.
+  assert.ok(times[5] < 16, `${times.map((each) => each.toFixed(1))} ms`);
+  // On a radius of 15 km its near side lies where the ground is 40 km away, at y = 1.05 - 40/60; in the middle column nothing else is drawn.
+  await at_rest();
+  await page.evaluate((selector) => {
+    const field = document.querySelector(selector.replace("range", "number"));
+    field.value = 15000;
+    field.dispatchEvent(new Event("change", { bubbles: true }));
+    field.focus();
+  }, radius);
+  await becomes("light.regions.0.radius_m", 15000);
+  await at_rest();
+  const { values } = await scene();
+  const far = Math.hypot(...[0, 1].map((k) => values["light.regions.0.position"][k] - values["camera.position"][k]));
+  const y = 1.05 - (far - 15000) / 60000;
+  assert.ok((await drawn_in("feedback", 0.49, y - 0.015, 0.51, y + 0.015)) > 0.1, "the near side of the ring");
+  assert.equal(await drawn_in("feedback", 0.49, y + 0.03, 0.51, 1), 0);
+  // The edge in the middle hides the ground between 31 and 33 km: no line there, where the ring would cross it.
+  await page.evaluate((selector) => {
+    const field = document.querySelector(selector.replace("range", "number"));
+    field.value = 23500;
+    field.dispatchEvent(new Event("change", { bubbles: true }));
+    field.focus();
+  }, radius);
+  await becomes("light.regions.0.radius_m", 23500);
+  await at_rest();
+  assert.equal(await drawn_in("feedback", 0.495, 0.4, 0.505, 0.6), 0, "hidden ground has no ring");
+  await page.evaluate(() => document.activeElement.blur());
+  while ((await scene()).text !== before.text) await undo();
+
+  await panel("ground");
+  await at_rest();
+  await page.click("#pull");
+  const [cx, cy] = await middle("#picture");
+  await page.mouse.move(cx, cy + 40);
+  await page.mouse.down();
+  await page.mouse.move(cx, cy + 20, { steps: 3 });
+  await page.waitForFunction(() => /summit/.test(document.getElementById("feedback").dataset.draws), patience);
+  await page.mouse.up();
+  await at_rest();
+  while ((await scene()).text !== before.text) await undo();
+
+  await at_rest();
+  const [fx, fy] = await middle("#picture");
+  await page.mouse.move(fx, fy);
+  await page.mouse.down();
+  await page.mouse.move(fx, fy + 10);
+  const height = await page.$eval("#picture", (found) => found.clientHeight);
+  await page.mouse.move(fx, fy + 30);
+  assert.match(await page.$eval("#feedback", (found) => found.dataset.draws ?? ""), /horizon/);
+  const top = await page.evaluate(() => {
+    const canvas = document.getElementById("feedback");
+    const { data } = canvas.getContext("2d").getImageData(canvas.width >> 1, 0, 1, canvas.height);
+    for (let k = 0; k < canvas.height; ++k) if (data[4 * k + 3] > 120) return k;
+    return -1;
+  });
+  // The skyline of the mock is at a fifth; the view has turned up by 30 px.
+  assert.ok(Math.abs(top - (0.2 * height + 30)) < 6, `${top} of ${height}`);
+  await page.mouse.up();
+  await page.waitForFunction(() => document.getElementById("feedback").dataset.draws === undefined, patience);
+  await finished();
+  await undo();
+  assert.equal((await scene()).text, before.text);
+});
+
+test(
+  "the button tells how far a rendering is, also on a page that was opened again, and one beside it cancels at once",
+  { skip: no_mock },
+  async () => {
+    const words = await page.evaluate(async () => {
+      const { in_words } = await import("./progress.js");
+      return [5, 30, 60, 130, 3400, 5000, 9000].map(in_words);
+    });
+    assert.deepEqual(words, [
+      "a few seconds",
+      "less than a minute",
+      "about a minute",
+      "about 2 minutes",
+      "about an hour",
+      "about an hour",
+      "about 2.5 hours",
+    ]);
+    const job = (seconds) => page.evaluate((body) => fetch("mock/job", { method: "POST", body }), String(seconds));
+    await job(100);
+    await page.click("#render");
+    await page.click("#render-start");
+    const shares = () => page.waitForFunction(() => /Rendering \d+ %/.test(document.getElementById("render").textContent), patience);
+    await shares();
+    assert.match(await text_of("#render-says"), /about \d minutes left/);
+    await page.goto("about:blank");
+    await page.goto(address);
+    await shares();
+    assert.match(await page.$eval("#render", (found) => found.title), /(Rays|Strokes), (about|less than) .* left/);
+    const told = await page.evaluate(() => {
+      document.getElementById("render-stop").click();
+      return document.getElementById("render").textContent;
+    });
+    assert.equal(told, "Cancelling…");
+    await page.waitForFunction(() => document.getElementById("render").textContent === "Render…", patience);
+    assert.ok(await page.$("#render-stop[hidden]"));
+    assert.equal(await page.evaluate(async () => (await (await fetch("api/render")).json()).state), "cancelled");
+    await job(3);
+    await finished();
+  },
+);
 
 test("a place is fetched and opened as a new scene, in one step of undo", { skip: no_place }, async () => {
   const { text } = await scene();

@@ -53,6 +53,7 @@ export const api = {
   job_cancel: (name) => post(`api/${name}/cancel`),
   pointer: (x, y, revision, signal) => get(`api/pointer?x=${x.toFixed(5)}&y=${y.toFixed(5)}&revision=${revision}`, signal),
   map_picture: (revision) => `api/map.png?of=${revision}`, // of the newest scene, whatever its revision
+  seen: async (revision) => (await answered(`api/seen?revision=${revision}`)).arrayBuffer(),
   thumbnail: (index, turn) => `api/proposals/${index}.jpg?turn=${turn}`,
 
   async picture(rung, revision, width, signal) {
@@ -70,6 +71,14 @@ export const api = {
               .map((each) => each.trim())
               .filter(Boolean),
     };
+  },
+
+  // A rectangle as the print has it, {blob, left, top} in px of the print; x and y are shares of the picture, its centre.
+  async loupe(x, y, width, height, revision, signal) {
+    const query = `x=${x.toFixed(5)}&y=${y.toFixed(5)}&width=${width}&height=${height}&revision=${revision}`;
+    const response = await answered(`api/loupe?${query}`, { signal });
+    const [left, top] = ["Left", "Top"].map((name) => Number(response.headers.get(`X-Belvedere-${name}`)));
+    return { blob: await response.blob(), left, top };
   },
 
   // Records of the last rung as they come: {x, y, width, height, done, stage, blob}.

@@ -22,8 +22,8 @@ const kinds = {
 const end_px = 9; // a click so near to the last point ends the line
 
 export class Drawing {
-  constructor(store, picture, hands) {
-    Object.assign(this, { store, picture, hands });
+  constructor(store, hands, seen) {
+    Object.assign(this, { store, hands, seen });
     this.layer = by_id("drawn");
     this.points = null; // of the line that is being drawn
     this.chosen = -1; // the drawn feature whose points are shown
@@ -214,7 +214,7 @@ export class Drawing {
 
   // Where a place of the ground is seen, in shares of the picture; null where it is hidden.
   share_of([east, north]) {
-    const { seen } = this.store;
+    const seen = this.seen.grid;
     if (!seen) return null;
     let best = Infinity;
     let found = -1;

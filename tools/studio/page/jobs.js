@@ -1,6 +1,8 @@
 // Long work of the program in a dialog with progress, time left and cancel: the picture rendered at full size, and maps fetched for a place.
 import { api } from "./api.js";
 import { by_id, duration } from "./dom.js";
+import { Button_progress, in_words } from "./progress.js";
+import { judged } from "./sheet.js";
 
 const look_ms = 700;
 
@@ -35,9 +37,12 @@ class Job {
     this.look();
   }
   async cancel() {
+    this.cancelling = true; // told at once; the program may need a moment
+    this.tell_state({ ...this.last, state: "running" });
     try {
       await this.job.cancel();
     } catch (error) {
+      this.cancelling = false;
       this.fault(error.fault);
     }
     this.look();
@@ -49,10 +54,13 @@ class Job {
     try {
       job = await this.job.state();
     } catch (error) {
+      if (this.running) this.timer = setTimeout(() => this.look(), look_ms);
       return this.fault(error.fault);
     }
     const was_running = this.running;
     this.running = job.state === "running";
+    this.cancelling &&= this.running;
+    this.last = job;
     this.part("start").disabled = this.running;
     for (const input of this.dialog.querySelectorAll("input")) input.disabled = this.running;
     this.part("cancel").hidden = !this.running;
@@ -60,19 +68,24 @@ class Job {
     bar.hidden = !this.running;
     if (job.done > 0) bar.value = job.done;
     else bar.removeAttribute("value"); // how long the step takes is not known
-    const share = job.done > 0 ? ` ${Math.round(100 * job.done)} %` : "";
-    const left = job.left_s > 0 ? `, ${duration(job.left_s)} left of this step` : "";
+    const share = job.done > 0 ? `${Math.floor(100 * job.done)} %: ` : "";
+    const left = job.left_s > 0 ? `, ${in_words(job.left_s)} left` : "";
     const told = {
-      running: () => `${job.stage || "working"}${share}${left}; ${duration(job.elapsed_s ?? 0)} so far`,
+      running: () => `${share}${job.stage || "working"}${left}; ${duration(job.elapsed_s ?? 0)} so far`,
       done: () => `Done in ${duration(job.elapsed_s ?? 0)}. Written to ${job.folder}.`,
       cancelled: () => `Cancelled. ${this.left}`,
     };
     this.part("says").textContent = told[job.state]?.() ?? "";
     if (job.state === "failed") this.fault(job.error);
-    by_id(this.name).textContent = this.running ? this.working : this.label;
+    this.tell_state(job);
     this.shown(job, was_running && job.state === "done");
     if (was_running && !this.running) this.ended?.();
     if (this.running) this.timer = setTimeout(() => this.look(), look_ms);
+  }
+  // On the button that opens the dialog, and on that which cancels.
+  tell_state(job) {
+    by_id(this.name).textContent = job.state === "running" ? this.working : this.label;
+    this.part("cancel").disabled = Boolean(this.cancelling);
   }
   fault(fault) {
     this.part("fault").hidden = !fault;
@@ -88,7 +101,8 @@ export class Rendering extends Job {
       state: () => api.job("render"),
       cancel: () => api.job_cancel("render"),
     });
-    Object.assign(this, { store, status, ended, working: "Rendering…", left: "Nothing was left behind." });
+    this.button = new Button_progress(by_id("render"), () => this.cancel());
+    Object.assign(this, { store, status, ended, left: "Nothing was left behind." });
     by_id("render-width").addEventListener("input", () => this.size());
   }
   open() {
@@ -97,12 +111,16 @@ export class Rendering extends Job {
     this.size();
     super.open();
   }
+  tell_state(job) {
+    this.part("cancel").disabled = Boolean(this.cancelling);
+    this.button.show(job, this.cancelling);
+  }
   size() {
     const width = Number(by_id("render-width").value);
     const [w, h] = [this.store.value("output.width") ?? 2400, this.store.value("output.height") ?? 1100];
     const sheet = this.store.value("output.sheet_width_mm") ?? 1200;
     by_id("render-size").textContent =
-      width > 0 ? `${width} × ${Math.round((width * h) / w)} px, ${Math.round((25.4 * width) / sheet)} dpi on ${sheet} mm` : "";
+      width > 0 ? `${width} × ${Math.round((width * h) / w)} px, ${judged({ width, mm: sheet, dpi: (25.4 * width) / sheet })}` : "";
   }
   shown(job, is_new) {
     by_id("render-page").hidden = job.state !== "done" || !job.page;

@@ -2,12 +2,15 @@
 import { api } from "./api.js";
 import { Check } from "./check.js";
 import { by_id } from "./dom.js";
+import { Feedback } from "./feedback.js";
 import { Files } from "./files.js";
+import { Forms } from "./forms.js";
 import { Hands } from "./hands.js";
 import { History } from "./history.js";
 import { Places, Rendering } from "./jobs.js";
 import { fill_help, listen_keys } from "./keys.js";
 import { Ladder } from "./ladder.js";
+import { Loupe } from "./loupe.js";
 import { Map_view } from "./map.js";
 import { Names } from "./names.js";
 import { Drawing } from "./draw.js";
@@ -16,6 +19,8 @@ import { Panels } from "./panels.js";
 import { panels as table } from "./panels_table.js";
 import { Picture } from "./picture.js";
 import { Proposals } from "./proposals.js";
+import { Seen } from "./seen.js";
+import { Paper } from "./sheet.js";
 import { Status } from "./status.js";
 import { Store } from "./store.js";
 import { Text } from "./text.js";
@@ -29,14 +34,19 @@ async function start() {
   const status = new Status(store);
   const picture = new Picture(store);
   const hands = new Hands(store, picture);
+  const seen = new Seen(store, picture);
+  new Forms(store, picture, seen);
+  new Feedback(store, picture, seen);
+  const paper = new Paper(store, picture);
+  const loupe = new Loupe(store, picture);
   const ladder = new Ladder(picture, (told) => {
     status.drawn(told);
     if (told.fault) store.tell("fault", told.fault);
     if (told.halved !== undefined) store.tell("level", told.halved);
   });
   const map = new Map_view(store);
-  const names = new Names(store, picture);
-  const drawing = new Drawing(store, picture, hands);
+  const names = new Names(store);
+  const drawing = new Drawing(store, hands, seen);
   const check = new Check(store);
   const panels = new Panels(store, hands, { draw: drawing.part });
   const history = new History(store, status);
@@ -61,7 +71,9 @@ async function start() {
   store.on("pending", () => ladder.stop_finer());
   store.on("refused", () => ladder.resume(store.state.revision));
   ladder.drawn = (revision) => names.read(revision);
-  ladder.rest = (signal) => Promise.all([map.read(), store.refresh(), check.read(signal)]);
+  // The view of what is seen needs what the program has found for it.
+  const found = () => Promise.all([map.read(), store.refresh()]);
+  ladder.rest = (signal) => Promise.all([found().then(() => seen.read()), check.read(signal)]);
 
   // A frame that has grown, or another window, has its own pixels: they are drawn when the hand rests.
   let resting = 0;
@@ -116,6 +128,8 @@ async function start() {
     d: ["map, critique and proposals, folded and open", () => by_id("fold").click()],
     g: ["guides: thirds, and an eighth of sky", guides],
     n: ["names on the picture", () => names.show(!names.on)],
+    s: ["the sheet around the picture", () => paper.show(!paper.on)],
+    l: ["1 : 1 loupe: a piece as it is printed", () => loupe.toggle()],
     t: [
       "text of the scene",
       () => {

@@ -7,8 +7,8 @@ import { new_step, running_step } from "./store.js";
 const click_px = 3; // a pointer that moves less has chosen the name
 
 export class Names {
-  constructor(store, picture) {
-    Object.assign(this, { store, picture });
+  constructor(store) {
+    this.store = store;
     this.layer = by_id("names");
     this.tools = by_id("name-tools");
     this.sheet = null; // the last answer of api/names

@@ -8,6 +8,7 @@ import { Blocks } from "./lists.js";
 import { recall, remember } from "./memory.js";
 import { panels } from "./panels_table.js";
 import { new_step } from "./store.js";
+import { Sheet } from "./sheet.js";
 import { Sun } from "./sun.js";
 import { weights } from "./weights.js";
 
@@ -18,7 +19,7 @@ export class Panels {
     this.hands = hands;
     this.made = new Map(); // id: what is shown in it, each with element, update() and rows
     this.shown = null;
-    this.editors = { sun: Sun, bend: Bend, equalizer: Equalizer };
+    this.editors = { sun: Sun, bend: Bend, equalizer: Equalizer, sheet: Sheet };
     this.actions = { target: () => hands.target(), angles: () => this.by_angles() };
     this.beside = beside;
     for (const { id, label, groups, more } of panels) {

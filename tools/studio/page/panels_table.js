@@ -205,6 +205,8 @@ export const panels = [
         { key: "output.width", label: "Width", unit: "px", min: 200, max: 20000, step: 1, log: 200 },
         { key: "output.height", label: "Height", unit: "px", min: 200, max: 10000, step: 1, log: 200 },
         { key: "output.sheet_width_mm", label: "Width in print", unit: "mm", min: 100, max: 3000, step: 1 },
+      ], editor: "sheet" },
+      { title: "Files", rows: [
         { key: "output.formats", label: "Formats" },
       ] },
     ], more: [

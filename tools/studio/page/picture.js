@@ -20,6 +20,7 @@ export class Picture {
     this.shown = null; // the view of the picture that is drawn
     this.fitted = () => {}; // called when the frame has another size
     this.frame_width = this.stage.clientWidth;
+    this.paper = null; // the sheet around it, {left, top, width, height} in widths of the picture
     this.listen();
     store.on("pending", () => this.glide());
   }
@@ -46,11 +47,15 @@ export class Picture {
   fit() {
     const [width, height] = [this.stage.clientWidth, this.stage.clientHeight];
     const aspect = this.canvas.width / this.canvas.height;
-    const w = Math.min(width, height * aspect);
+    const paper = this.paper ?? { left: 0, top: 0, width: 1, height: 1 / aspect };
+    const w = (this.paper ? 0.96 : 1) * Math.min(width / paper.width, height / paper.height);
     const frame = by_id("frame");
     frame.style.width = `${w}px`;
     frame.style.height = `${w / aspect}px`;
+    // Frame and paper are both centred in the stage.
+    frame.style.translate = `${w * (paper.left + 0.5 - paper.width / 2)}px ${w * (paper.top + 0.5 / aspect - paper.height / 2)}px`;
     this.frame_width = w;
+    this.store.tell("fitted", w);
     this.fitted();
   }
   // Pixels of the screen across the frame.
@@ -69,6 +74,7 @@ export class Picture {
     this.shown = seen;
     document.body.dataset.drawn = String(Number(document.body.dataset.drawn ?? 0) + 1);
     this.glide();
+    this.store.tell("shown");
   }
   async tile({ x, y, blob }, { width }) {
     const scale = this.canvas.width / width;
