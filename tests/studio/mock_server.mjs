@@ -224,6 +224,10 @@ const answers = {
     change(scene.saved, "");
     return state();
   },
+  "POST api/revert": () => {
+    change(scene.saved, "");
+    return state();
+  },
   "GET api/rungs": (query) => rungs(query),
   "GET api/stage": () => stage,
   "GET api/pointer": async (query) => {
@@ -420,6 +424,14 @@ const pictures = {
     const bytes = png(part(draw(values, print_width, print_height), left, top, width, height));
     image(response, bytes, { "X-Belvedere-Left": left, "X-Belvedere-Top": top });
   },
+  "POST api/thumbnail": async (_, response, body) => {
+    const { changes, width } = JSON.parse(body);
+    const mine = ++newest;
+    await sleep(slow_ms + 20);
+    if (mine !== newest) throw superseded();
+    const { values } = parse(changes.reduce(edit, scene.text));
+    image(response, png(draw(values, width, Math.round((width * values["output.height"]) / values["output.width"]))));
+  },
   "GET api/map.png": (_, response) => image(response, png(relief(600, 525))),
 };
 
@@ -431,7 +443,7 @@ async function answer(request, response) {
   const chunks = [];
   for await (const each of request) chunks.push(each);
   try {
-    if (pictures[name]) return await pictures[name](address.searchParams, response);
+    if (pictures[name]) return await pictures[name](address.searchParams, response, Buffer.concat(chunks).toString());
     if (name.startsWith("GET api/proposals/")) {
       const { proposals } = answers["GET api/proposals"]();
       const values = { ...parse(scene.text).values };

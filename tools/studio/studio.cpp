@@ -153,7 +153,10 @@ void Studio::stop() {
   state_->server->stop();
 }
 
-bool Studio::is_left(double wait_s) const { return state_->visits.is_left(wait_s); }
+// A rendering goes on without its page, which finds it when it is opened again.
+bool Studio::is_left(double wait_s) const {
+  return state_->visits.is_left(wait_s) && state_->render->report().state != Job::State::running;
+}
 
 HttpAnswer Studio::answer(const HttpRequest& request) {
   state_->visits.asked(request);

@@ -56,6 +56,12 @@ export const api = {
   seen: async (revision) => (await answered(`api/seen?revision=${revision}`)).arrayBuffer(),
   thumbnail: (index, turn) => `api/proposals/${index}.jpg?turn=${turn}`,
 
+  // The newest scene with changes, small.
+  async look(changes, width, signal) {
+    const headers = { "Content-Type": "application/json" };
+    return (await answered("api/thumbnail", { method: "POST", headers, body: JSON.stringify({ changes, width }), signal })).blob();
+  },
+
   async picture(rung, revision, width, signal) {
     const response = await answered(`api/picture?rung=${rung}&revision=${revision}&width=${width}`, { signal });
     const without = response.headers.get("X-Belvedere-Without");

@@ -1,9 +1,11 @@
 // Controls for single keys. Each is a row: label, "auto" where the program can choose, number field with unit, slider, the way back to the
 // default, and a place for the error that names its key. What a key means and may be comes from the schema.
 import { clamp, element, rounded } from "./dom.js";
+import { gallery_row } from "./gallery.js";
 import { new_step } from "./store.js";
 
 let ids = 0;
+export const labels = new Map(); // key: the row it is changed in, {label, unit}
 
 // What the schema says of a key in the words that a control needs.
 function kind_of(store, key) {
@@ -41,10 +43,15 @@ function kind_of(store, key) {
 export function row(store, spec) {
   const about = kind_of(store, spec.key);
   if (!about) return null;
-  const made = { number: number_row, switch: switch_row, choice: choice_row, pair: pair_row, set: set_row, text: text_row }[
+  const made = { number: number_row, switch: switch_row, choice: choice_row, pair: pair_row, set: set_row, text: text_row, gallery: gallery_row }[
     spec.kind ?? about.kind
   ](store, spec, about);
-  made.element.dataset.key = spec.key;
+  // Looks of several keys are no control of one.
+  if (!spec.looks) {
+    made.element.dataset.key = spec.key;
+    labels.set(spec.key, spec);
+  }
+  if (spec.looks ? spec.lock : !spec.set && !/\.\d+\./.test(spec.key)) made.element.append(store.locks.button(spec.key, spec.label));
   made.fault = element("p", { class: "fault", id: `fault-${++ids}`, hidden: true });
   made.element.append(made.fault);
   const shown = made.update;

@@ -98,7 +98,7 @@ export class Drawing {
       ),
     ];
     const collection = features.length > 0 ? { type: "FeatureCollection", features } : null;
-    return this.store.act(() => api.draw(collection, changes, step));
+    return this.store.act(() => api.draw(collection, changes, step), { name: "Lines drawn on the ground" });
   }
   block(key, member, file, wanted, more) {
     const index = Array.from({ length: this.store.count(key) }, (_, at) => at).find((at) => this.store.value(`${key}.${at}.${member}`) === file);

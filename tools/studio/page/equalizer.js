@@ -1,6 +1,8 @@
 // The equalizer: for each band of landforms, by their width in metres, two upright sliders over one axis, near and far, joined by two
 // curves; for all ground, ridges and valleys. The band in hand is tinted in the picture (forms.js).
+import { row } from "./controls.js";
 import { clamp, drawing, element, rounded } from "./dom.js";
+import { presets } from "./looks.js";
 import { new_step } from "./store.js";
 
 const sets = [
@@ -63,9 +65,7 @@ export class Equalizer {
       this.halved = halved;
       this.update();
     });
-    this.preset = element("select", { id: "equalizer-preset", change: () => this.choose_preset() });
-    for (const word of store.describe("generalize.preset")?.enum ?? [])
-      this.preset.append(element("option", { value: word }, word.replaceAll("_", " ") || "none"));
+    this.preset = row(store, { key: "generalize.preset", label: "Presets", kind: "gallery", looks: presets, lock: true });
     this.tabs = element(
       "div",
       { class: "segments", role: "group", "aria-label": "Weights of" },
@@ -100,13 +100,7 @@ export class Equalizer {
     this.element = element(
       "div",
       { class: "equalizer" },
-      element(
-        "div",
-        { class: "row choice" },
-        element("label", { for: "equalizer-preset" }, "Preset"),
-        element("span", { class: "tools" }),
-        this.preset,
-      ),
+      this.preset.element,
       this.tabs,
       this.says,
       this.box,
@@ -152,7 +146,7 @@ export class Equalizer {
     if (bands !== this.bands || this.cell_m !== this.store.map?.cell_m) this.build(bands);
     this.says.textContent = this.set.says;
     this.draw_curves(bands);
-    this.preset.value = this.store.value("generalize.preset") ?? "";
+    this.preset.update();
     for (const each of this.sliders) {
       const value = this.weights(each.side)[each.band];
       if (document.activeElement !== each.field || Number(each.field.value) !== value) each.field.value = rounded(value, 0.01);
@@ -277,11 +271,5 @@ export class Equalizer {
       sides.map(({ id }) => ({ key: this.key(id), value: Array(bands).fill(this.neutral()) })),
       new_step(),
     );
-  }
-  // A preset's weights count where the scene gives none beside it.
-  choose_preset() {
-    const away = sets.flatMap((set) => sides.map(({ id }) => this.key(id, set))).filter((key) => this.store.given(key));
-    const change = this.preset.value ? { key: "generalize.preset", value: this.preset.value } : { key: "generalize.preset", remove: true };
-    this.store.edit([...away.map((key) => ({ key, remove: true })), change], new_step());
   }
 }

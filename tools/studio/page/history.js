@@ -38,10 +38,10 @@ export class History {
   }
 
   undo() {
-    if (this.store.state.can_undo || this.store.busy) return this.store.act(() => api.act("undo"));
+    if (this.store.state.can_undo || this.store.busy) return this.store.act(() => api.act("undo"), { by: -1 });
   }
   redo() {
-    if (this.store.state.can_redo || this.store.busy) return this.store.act(() => api.act("redo"));
+    if (this.store.state.can_redo || this.store.busy) return this.store.act(() => api.act("redo"), { by: 1 });
   }
   async save() {
     const over = this.mine ? "yes" : "no"; // over what another program wrote
@@ -57,7 +57,7 @@ export class History {
         const state = await api.scene();
         if (by_id("gone").hidden === false) by_id("gone").hidden = true;
         if (this.store.busy || this.store.state !== before) return;
-        if (state.revision !== before.revision) this.store.act(async () => state);
+        if (state.revision !== before.revision) this.store.act(async () => state, { outside: true });
         else if (state.outside !== before.outside || state.saved !== before.saved) this.store.take(state);
       } catch (error) {
         by_id("gone").hidden = error.status !== 0 && error.status !== 403;

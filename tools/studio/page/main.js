@@ -1,16 +1,19 @@
 // The studio: puts the parts of the page together.
 import { api } from "./api.js";
 import { Check } from "./check.js";
+import { about } from "./differences.js";
 import { by_id } from "./dom.js";
 import { Feedback } from "./feedback.js";
 import { Files } from "./files.js";
 import { Forms } from "./forms.js";
+import { Thumbnails } from "./gallery.js";
 import { Hands } from "./hands.js";
 import { History } from "./history.js";
 import { Places, Rendering } from "./jobs.js";
 import { fill_help, listen_keys } from "./keys.js";
 import { Ladder } from "./ladder.js";
 import { Loupe } from "./loupe.js";
+import { Locks } from "./locks.js";
 import { Map_view } from "./map.js";
 import { Names } from "./names.js";
 import { Drawing } from "./draw.js";
@@ -24,6 +27,7 @@ import { Paper } from "./sheet.js";
 import { Status } from "./status.js";
 import { Store } from "./store.js";
 import { Text } from "./text.js";
+import { Before, Steps, Versions } from "./versions.js";
 
 const resize_rest_ms = 400; // a window rests when its size has not changed for so long
 
@@ -43,7 +47,13 @@ async function start() {
     status.drawn(told);
     if (told.fault) store.tell("fault", told.fault);
     if (told.halved !== undefined) store.tell("level", told.halved);
+    store.tell("drawn", told);
   });
+  store.thumbnails = new Thumbnails(store, ladder);
+  store.locks = new Locks(store, status, (key) => about(key).label);
+  new Steps(store, status, picture, ladder);
+  const before = new Before(store, status, picture, ladder);
+  const versions = new Versions(store, status, picture);
   const map = new Map_view(store);
   const names = new Names(store);
   const drawing = new Drawing(store, hands, seen);
@@ -84,23 +94,6 @@ async function start() {
   window.addEventListener("resize", fit);
   picture.fitted = () => ladder.width > 0 && picture.wanted_width() > ladder.width && fit();
 
-  const compare = (on) => {
-    const shows = picture.compare(on);
-    by_id("compare").setAttribute("aria-pressed", String(shows));
-    if (shows) picture.border.focus();
-  };
-  const has_kept = () => {
-    by_id("compare").disabled = by_id("to-kept").disabled = false;
-  };
-  const keep = () => {
-    picture.keep();
-    has_kept();
-    status.say("Kept. C compares with it.");
-  };
-  by_id("keep").addEventListener("click", keep);
-  by_id("compare").addEventListener("click", () => compare(!picture.comparing()));
-  const to_kept = () => picture.kept_text !== null && store.act(() => api.text(picture.kept_text));
-  by_id("to-kept").addEventListener("click", to_kept);
   const alone = () => document.body.classList.toggle("alone");
   by_id("alone").addEventListener("click", alone);
   const fold = (folded) => {
@@ -122,8 +115,10 @@ async function start() {
     "Ctrl-S": ["save", () => history.save()],
     p: ["to the picture", () => picture.canvas.focus()],
     m: ["to the map", () => by_id("signs").querySelector(".viewer")?.focus()],
-    k: ["keep this version", keep],
-    c: ["compare with the kept version", () => picture.kept_text !== null && compare(!picture.comparing())],
+    k: ["keep this version", () => versions.keep()],
+    c: ["compare with the kept version", () => versions.compare()],
+    b: ["while it is held: what was saved", () => before.show()],
+    h: ["history of changes", () => by_id("history").togglePopover()],
     f: ["the picture alone, and back", alone],
     d: ["map, critique and proposals, folded and open", () => by_id("fold").click()],
     g: ["guides: thirds, and an eighth of sky", guides],
@@ -139,7 +134,7 @@ async function start() {
     ],
     r: ["render", () => rendering.open()],
     o: ["another place", () => places.open()],
-    u: ["draw again", () => store.act(() => api.scene())],
+    u: ["draw again", () => store.act(() => api.scene(), { outside: true })],
     v: ["propose views", () => proposals.read()],
     "?": ["this list", help],
   };
@@ -166,7 +161,7 @@ async function start() {
   const panel = recall("panel");
   panels.show(by_id(`tab-${panel}`) ? panel : "camera");
   store.on("panel", (id) => remember("panel", id));
-  if (await picture.restore().catch(() => false)) has_kept();
+  await versions.restore();
   await store.act(async () => state);
   await store.drawn;
   document.body.dataset.ready = "true";

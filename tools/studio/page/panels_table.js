@@ -3,6 +3,7 @@
 // (blocks [[key]]). What is needed most stands in `groups`, three to six controls; the rest, in `more`, is folded. `otherwise` is the number in
 // effect where a key is left out and neither the schema nor the program's own choice tells it.
 import { view } from "./camera.js";
+import { airs, hours, seasons } from "./looks.js";
 
 const parallel = (store) => store.value("camera.projection") === "oblique";
 const central = (store) => !parallel(store);
@@ -40,6 +41,7 @@ export const panels = [
   {
     id: "sun", label: "Sun", groups: [
       { title: "Direction of the light", editor: "sun" },
+      { title: "Hour of the day", rows: [{ key: "sun.time", label: "Hour of the day", kind: "gallery", bare: true, looks: hours, lock: true }] },
       { title: "Light and shade", rows: [
         { key: "light.sun", label: "Sunlight", min: 0, max: 2, step: 0.01 },
         { key: "light.shadow_depth", label: "Shadow depth", min: 0, max: 1, step: 0.01 },
@@ -109,6 +111,7 @@ export const panels = [
   {
     id: "air", label: "Air", groups: [
       { title: "Haze and sky", rows: [
+        { key: "air.haze", label: "Airs", kind: "gallery", looks: airs },
         { key: "air.haze", label: "Haze", min: 0, max: 1, step: 0.01 },
         { key: "air.from_m", label: "Begins at", ...distance },
         { key: "air.scale_m", label: "Grows over", ...distance, min: 100 },
@@ -122,18 +125,23 @@ export const panels = [
         { key: "air.warm_near", label: "Warm foreground", min: 0, max: 3, step: 0.02 },
         { key: "air.hue_drift", label: "Drift of hue", min: 0, max: 3, step: 0.02 },
       ] },
-      { title: "Sky", rows: [{ key: "air.sky", label: "Clouds" }] },
+      { title: "Sky", rows: [{ key: "air.sky", label: "Clouds", kind: "gallery" }] },
     ],
   },
   {
     id: "look", label: "Look", groups: [
-      { title: "Colours and style", rows: [
-        { key: "palette", label: "Palette", words: (store) => store.choices.palettes },
-        { key: "style.file", label: "Style of a painting", words: (store) => store.choices.styles, none: "none" },
+      { title: "Colours", rows: [
+        { key: "palette", label: "Palette", kind: "gallery", words: (store) => store.choices.palettes },
+      ] },
+      { title: "Style of a painting", rows: [
+        { key: "style.file", label: "Style", kind: "gallery", bare: true, words: (store) => store.choices.styles, none: "none" },
         { key: "style.palette", label: "Its colours", min: 0, max: 1, step: 0.01, when: styled },
         { key: "style.brushwork", label: "Its strokes", min: 0, max: 1, step: 0.01, when: styled },
-        { key: "season.date", label: "Date", hint: "10-05" },
         { key: "style.winter", label: "Winter", when: styled },
+      ] },
+      { title: "Season", rows: [
+        { key: "season.date", label: "Seasons", kind: "gallery", bare: true, looks: seasons },
+        { key: "season.date", label: "Date", hint: "10-05" },
       ] },
     ], more: [
       { title: "Style of a painting", when: styled, rows: [
@@ -144,7 +152,7 @@ export const panels = [
         { key: "style.canvas", label: "Canvas", min: 0, max: 3, step: 0.02, when: styled },
       ] },
       { title: "Ground and season", rows: [
-        { key: "land_cover.rock", label: "Rock" },
+        { key: "land_cover.rock", label: "Rock", kind: "gallery" },
         { key: "season.frozen_lakes", label: "Frozen lakes" },
       ] },
       { title: "Water", rows: [

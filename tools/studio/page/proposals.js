@@ -2,7 +2,6 @@
 import { api } from "./api.js";
 import { by_id, element } from "./dom.js";
 import { recall, remember } from "./memory.js";
-import { new_step } from "./store.js";
 
 export class Proposals {
   constructor(store, status, ladder) {
@@ -22,6 +21,7 @@ export class Proposals {
     by_id("propose").disabled = true;
     box.replaceChildren(element("p", { class: "none" }, "Looking for views …"));
     this.ladder.stop(); // somebody waits for the views
+    this.store.thumbnails.hold(true);
     try {
       const { proposals } = await api.proposals();
       ++this.turn;
@@ -34,6 +34,7 @@ export class Proposals {
       by_id("propose").disabled = false;
     }
     await this.draw(Array.from(box.querySelectorAll("img")), this.turn);
+    this.store.thumbnails.hold(false);
     this.ladder.resume(this.store.state.revision);
   }
   // One after the other. What is changed meanwhile is drawn first: they would take the ground from it.
@@ -58,8 +59,7 @@ export class Proposals {
         class: "proposal",
         title: why,
         click: () => {
-          this.store.edit(changes, new_step());
-          this.status.say(`${name} taken. Ctrl-Z goes back.`);
+          this.store.locks.edit(changes, `${name} taken. Ctrl-Z goes back.`);
         },
       },
       element("img", { alt: "" }),

@@ -92,12 +92,12 @@ export class Store extends EventTarget {
     this.tell("pending");
     return this.pump();
   }
-  // Something else that changes the scene, in its turn: undo, a text. False if it was refused.
-  async act(request) {
+  // Something else that changes the scene, in its turn: undo, a text. False if it was refused. cause: {by} steps of undo, {name}, {outside}.
+  async act(request, cause = {}) {
     while (this.busy || this.queue.length > 0) await new Promise((resolve) => this.waiting.push(resolve));
     this.busy = true;
     try {
-      this.take(await request());
+      this.take(await request(), cause);
       this.draw();
     } catch (error) {
       this.fail(error);
@@ -112,9 +112,10 @@ export class Store extends EventTarget {
     this.busy = true;
     this.sent = this.queue.shift();
     try {
-      const state = await api.set(this.sent.changes, this.sent.step);
+      const { step } = this.sent;
+      const state = await api.set(this.sent.changes, step);
       this.sent = null;
-      this.take(state);
+      this.take(state, { step });
       this.draw();
     } catch (error) {
       this.sent = null;
@@ -144,12 +145,12 @@ export class Store extends EventTarget {
     this.waiting = [];
     for (const resolve of waiting) resolve();
   }
-  take(state) {
+  take(state, cause = {}) {
     const before = this.state;
     // A scene with an error has a text alone.
     this.state = { ...state, values: state.values ?? {}, derived: state.derived ?? [] };
     this.tell("state", this.state);
-    if (before && before.revision !== state.revision) this.tell("changed", { before, state: this.state });
+    if (before && before.revision !== state.revision) this.tell("changed", { before, state: this.state, cause });
     this.tell("fault", state.error ?? null);
   }
   // What the program found for the picture that is drawn; the scene itself has not changed.
