@@ -185,9 +185,8 @@ class Layout {
     Candidate out{.text = {foot.x - half.x, foot.y - half.y, foot.x + half.x, foot.y}};
     // Inside the ends of the text, so that the line meets a letter.
     const double inset = std::min(.15 * request.width_px, request.height_px);
-    out.leader_end = {
-        std::clamp(request.mark.x, out.text.left + inset, out.text.right - inset),
-        std::clamp(request.mark.y, out.text.top, out.text.bottom)};
+    out.leader_end = {std::clamp(request.mark.x, out.text.left + inset, out.text.right - inset),
+                      std::clamp(request.mark.y, out.text.top, out.text.bottom)};
     out.has_leader = glm::length(out.leader_end - request.mark) >
                      .5 * request.mark_px + p_.gap_px + .5 * p_.row_px;
     return out;
@@ -341,12 +340,10 @@ class Layout {
                              const LabelBox& mark) {
       return lies_over(theirs, .5 * p_.clearance_px, leader) ||
              (requests_[other].mark_px > 0.0 && leader.overlaps(mark)) ||
-             (theirs.has_leader &&
-              grown(leader, p_.clearance_px)
-                  .overlaps(leader_box(requests_[other], theirs.leader_end)));
+             (theirs.has_leader && grown(leader, p_.clearance_px)
+                                       .overlaps(leader_box(requests_[other], theirs.leader_end)));
     };
-    if (a.has_leader && lies_on(leader_box(requests_[i], a.leader_end), j, b, mark_b))
-      return true;
+    if (a.has_leader && lies_on(leader_box(requests_[i], a.leader_end), j, b, mark_b)) return true;
     return b.has_leader && lies_on(leader_box(requests_[j], b.leader_end), i, a, mark_a);
   }
 

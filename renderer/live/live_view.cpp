@@ -9,6 +9,7 @@
 #include "renderer/image/display_conversion.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/copy_plan.h"
+#include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_work.h"
@@ -106,24 +107,23 @@ GroundSize LiveView::size_of(const LoadedScene& loaded) {
 namespace {
 
 // Names at the print's size, whatever the size of the picture.
-std::optional<NamedSheet> names_over(const LoadedScene& given, const World& world,
-                                     const LivePicture& picture, const Run& run) {
+std::shared_ptr<const NamedSheet> names_over(const LoadedScene& given, const World& world,
+                                             const LivePicture& picture, const Run& run) {
   const Scene& scene = given.scene;
-  if ((!scene.labels.any() && !scene.margin) || !world.terrain.windows.empty()) return std::nullopt;
+  if ((!scene.labels.any() && !scene.margin) || !world.terrain.windows.empty()) return nullptr;
   BareView bare = bare_view_of(world);
   bare.view.camera.width = scene.output.width;
   bare.view.camera.height = scene.output.height;
   bare.camera = make_camera(bare.view.camera);
-  const PictureOverview overview{
-      .sheet_px = bare.camera->size(),
-      .factor = std::max(1, scene.output.width / picture.colour.width()),
-      .classes = picture.seen.land_cover,
-      .colours = picture.colour};
+  const PictureOverview overview{.sheet_px = bare.camera->size(),
+                                 .factor = std::max(1, scene.output.width / picture.colour.width()),
+                                 .classes = picture.seen.land_cover,
+                                 .colours = picture.colour};
   PictureLegend legend;
   legend.luminance = luminance_from_bytes(luminance_to_bytes(overview));
   if (scene.margin && scene.margin->legend)
     legend.classes = find_legend(overview, legend_swatch_px(given));
-  return lay_out_names(given, bare, legend, true, run.progress);
+  return std::make_shared<const NamedSheet>(lay_out_names(given, bare, legend, true, run.progress));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +11,6 @@
 #include "base/guidance_buffers.h"
 #include "base/pixel_rect.h"
 #include "base/run.h"
-#include "renderer/pipeline/named_picture.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/resolve_view.h"
 #include "renderer/world/scene_dem.h"
@@ -18,6 +18,8 @@
 #include "renderer/world/view.h"
 
 namespace belvedere {
+
+struct NamedSheet;
 
 // A live picture is made several times, each better and slower than the one before: a ladder, from
 // what follows the hand to exactly what `render` makes at that size.
@@ -53,7 +55,7 @@ struct LivePicture {
   double shortest_m = 0.0;
   // Names, tracks and margin at the print's size, on the ground of this picture; none in the first
   // rung, and where the scene has none.
-  std::optional<NamedSheet> sheet;
+  std::shared_ptr<const NamedSheet> sheet;
 };
 
 // Makes pictures of a scene that changes, one after the other. Values of the world stay in memory,

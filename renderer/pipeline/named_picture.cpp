@@ -110,8 +110,8 @@ NamedSheet lay_out_names(const LoadedScene& loaded, const BareView& bare,
                                   scene.output.sheet_width_mm);
   }
   if (scene.margin && whole)
-    out.margin = lay_out_margin(content_of(loaded, bare, out.names, legend),
-                                out.names.style.margin, out.names.size_px, out.names.px_per_mm,
+    out.margin = lay_out_margin(content_of(loaded, bare, out.names, legend), out.names.style.margin,
+                                out.names.size_px, out.names.px_per_mm,
                                 scene.margin->frame_mm * out.names.px_per_mm);
   return out;
 }

@@ -337,8 +337,8 @@ struct SceneLabelFile {  // a file of named things, or of ways
   bool enabled = true;    // otherwise as if it were not there
 };
 
-struct SceneNameByHand {  // what a cartographer decides about one name
-  std::string name;         // as in its file
+struct SceneNameByHand {               // what a cartographer decides about one name
+  std::string name;                    // as in its file
   std::optional<double> dx_mm, dy_mm;  // LabelPoint::by_hand_mm
   bool hidden = false;
   std::optional<double> rank;  // 1 … 9

@@ -10,16 +10,16 @@
 
 #include "base/config.h"
 #include "base/text/embedded.h"
+#include "renderer/compose/proposed_scene.h"
 #include "renderer/labels/drawing_svg.h"
 #include "renderer/labels/label_files.h"
-#include "renderer/compose/proposed_scene.h"
+#include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/scene_check.h"
 #include "renderer/scene/edit/scene_edit.h"
 #include "renderer/scene/edit/toml_layout.h"
 #include "renderer/scene/scene_schema.h"
 #include "terrain/io/crs.h"
 #include "terrain/shape/derivatives.h"
-#include "tools/studio/http_server.h"
 
 namespace belvedere::tools {
 namespace {
@@ -119,7 +119,7 @@ Json scene_json(const SceneSession& session, const std::vector<DerivedValue>& de
       .add("can_redo", Json::boolean(session.can_redo()))
       .add("text", Json::text(session.text()))
       .add("drawn_file", Json::text(session.drawn_file()))
-      .add("drawn", Json::raw(is_json(session.drawn()) ? session.drawn() : "null"))
+      .add("drawn", Json::raw(session.drawn().empty() ? "null" : session.drawn()))
       .add("values", std::move(values))
       .add("derived", std::move(open))
       .add("error", Json::raw("null"))

@@ -35,7 +35,7 @@ class Job::JobProgress : public Progress {
   void begin(std::string_view stage, double total) override {
     const std::lock_guard lock(job_.mutex_);
     job_.report_.stage = stage;
-    job_.report_.done = 0.0;
+    job_.stage_done_ = 0.0;
     job_.stage_begun_ = std::chrono::steady_clock::now();
     total_ = total;
     check();
@@ -43,7 +43,7 @@ class Job::JobProgress : public Progress {
   void advance(double amount) override {
     check();
     const std::lock_guard lock(job_.mutex_);
-    if (total_ > 0.0) job_.report_.done = std::min(1.0, job_.report_.done + amount / total_);
+    if (total_ > 0.0) job_.stage_done_ = std::min(1.0, job_.stage_done_ + amount / total_);
   }
 
  private:
@@ -60,7 +60,7 @@ Job::~Job() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Job::start(const std::string& folder, const Run& run, Work work) {
+void Job::start(const std::string& folder, const Run& run, Work work, double expected_s) {
   // A job may end before its thread is kept below.
   const std::lock_guard starting(start_mutex_);
   {
@@ -70,6 +70,8 @@ void Job::start(const std::string& folder, const Run& run, Work work) {
     report_ = {
         .state = State::running, .stage = "reading", .folder = folder, .error = {}, .result = {}};
     begun_ = stage_begun_ = std::chrono::steady_clock::now();
+    stage_done_ = 0.0;
+    expected_s_ = expected_s;
     cancelled_ = false;
   }
   if (thread_.joinable()) thread_.join();
@@ -105,17 +107,21 @@ void Job::do_work(const Run& run, const Work& work) {
 
 Job::Report Job::report() const {
   const std::lock_guard lock(mutex_);
-  Report out = report_;
-  if (out.state != State::running) return out;
+  if (report_.state != State::running) return report_;
   const auto now = std::chrono::steady_clock::now();
-  out.elapsed_s = std::chrono::duration<double>(now - begun_).count();
+  report_.elapsed_s = std::chrono::duration<double>(now - begun_).count();
   const double in_stage_s = std::chrono::duration<double>(now - stage_begun_).count();
   // A shorter time says little.
   constexpr double min_done = 0.02;
   constexpr double min_s = 2.0;
-  if (out.done > min_done && in_stage_s > min_s)
-    out.left_s = in_stage_s * (1.0 - out.done) / out.done;
-  return out;
+  const bool known = stage_done_ > min_done && in_stage_s > min_s;
+  const double stage_left_s = known ? in_stage_s * (1.0 - stage_done_) / stage_done_ : 0.0;
+  report_.left_s = -1.0;
+  if (!known && expected_s_ <= 0.0) return report_;
+  report_.left_s = std::max(expected_s_ - report_.elapsed_s, stage_left_s);
+  report_.done =
+      std::max(report_.done, report_.elapsed_s / (report_.elapsed_s + report_.left_s + 1.0));
+  return report_;
 }
 
 Json job_json(const Job::Report& report) {

@@ -24,9 +24,9 @@ class Job {
   struct Report {
     State state = State::idle;
     std::string stage;
-    double done = 0.0;  // of the stage, 0…1
+    double done = 0.0;  // of all, 0…1; never falls
     double elapsed_s = 0.0;
-    double left_s = -1.0;  // of the stage; negative: not known
+    double left_s = -1.0;  // of all, estimated; negative: not known
     std::string folder;
     std::string error;
     std::string result;  // of the work, once it is done
@@ -41,7 +41,8 @@ class Job {
   Job& operator=(const Job&) = delete;
 
   // Error(usage) while another one runs.
-  void start(const std::string& folder, const Run& run, Work work);
+  // expected_s: how long it may take all in all, to begin with; 0: not known.
+  void start(const std::string& folder, const Run& run, Work work, double expected_s = 0.0);
   void cancel() { cancelled_ = true; }
   Report report() const;
 
@@ -51,8 +52,10 @@ class Job {
 
   std::string name_;
   std::mutex start_mutex_;    // of the thread: requests to start may come at the same time
-  mutable std::mutex mutex_;  // of the report and its times
-  Report report_;
+  mutable std::mutex mutex_;  // of the members up to `cancelled_`
+  mutable Report report_;
+  double stage_done_ = 0.0;  // 0…1
+  double expected_s_ = 0.0;
   std::chrono::steady_clock::time_point begun_;
   std::chrono::steady_clock::time_point stage_begun_;
   std::atomic<bool> cancelled_ = false;

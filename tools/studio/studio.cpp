@@ -17,7 +17,11 @@ StudioState::StudioState(const StudioParameters& parameters, const Run& given)
       run(given),
       open_place(parameters.open_place),
       render(std::make_unique<Job>("render")),
-      fetch(std::make_unique<Job>("fetch")) {}
+      fetch(std::make_unique<Job>("fetch")) {
+  if (!session.drawn().empty() && !is_json(session.drawn()))
+    throw Error(ErrorKind::input, session.drawn_file(), "is no GeoJSON",
+                "the lines drawn in the studio, or no file of that name");
+}
 StudioState::~StudioState() = default;
 
 StudioState::Moment StudioState::moment(const HttpRequest& request) {

@@ -119,6 +119,7 @@ HttpAnswer StudioState::tiles(const HttpRequest& request) {
   const Moment now = moment(request);
   HttpAnswer out{.type = "application/octet-stream"};
   out.stream = [this, now, rung = rungs_asked(request).back()](const SendPart& send) {
+    const auto begun = std::chrono::steady_clock::now();
     bool gone = false;
     const auto record = [&](const Json& header, const std::string& bytes = "") {
       const std::string text = header.str();
@@ -150,6 +151,12 @@ HttpAnswer StudioState::tiles(const HttpRequest& request) {
       const auto made =
           std::make_shared<const LivePicture>(exact.paint(now.scene, rung, run, &told, use, tell));
       remember(made, now, std::move(told));
+      {
+        const std::lock_guard guard(mutex);
+        last_rung_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        last_rung_px = made_px;
+      }
       record(Json::object().add("bytes", Json::number(0)).add("done", Json::number(1)));
     } catch (const Error& error) {
       record(error_json(error).add("bytes", Json::number(0)));
@@ -303,14 +310,22 @@ HttpAnswer StudioState::start_render(const HttpRequest& request) {
     throw Error(ErrorKind::usage, "width", fmt::format("{}", width), "16 … 65535 px");
   output = with_width(output, width);
   const fs::path folder = fs::path(scene.folder) / (scene.name + "_rendered");
+  // The last rung is the same work, of fewer pixels.
+  double expected_s = 0.0;
+  {
+    const std::lock_guard guard(mutex);
+    if (last_rung_px > 0.0)
+      expected_s = last_rung_s * std::max(1.0, 1.0 * output.width * output.height / last_rung_px);
+  }
   // The live pictures make room.
   quick.cancel();
   exact.cancel();
-  render->start(folder.string(), run, [scene, folder = folder.string()](const Run& given) {
+  const auto work = [scene, folder = folder.string()](const Run& given) {
     belvedere::render(scene, folder, given);
     write_web_page({{folder, scene.name}}, page_folder(folder), {}, given.progress);
     return std::string();
-  });
+  };
+  render->start(folder.string(), run, work, expected_s);
   return json_answer(render_json(), 202);
 }
 

@@ -88,6 +88,8 @@ struct StudioState {
   std::vector<std::string> notes;
   std::shared_ptr<const LivePicture> last;  // under the pointer
   std::uint64_t last_revision = 0;
+  double last_rung_s = 0.0;  // how long the last rung took, and of how many pixels it was
+  double last_rung_px = 0.0;
   FileOwner owner;
   const Run& run;
   std::mutex proposals_mutex;

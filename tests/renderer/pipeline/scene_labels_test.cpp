@@ -18,8 +18,8 @@
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
-#include "tests/notes.h"
 #include "tests/grids.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {

@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "renderer/style/style_file.h"
-#include "tests/tools/cli/bands.h"
 #include "tests/grids.h"
 #include "tests/renderer/image/picture_bytes.h"
+#include "tests/tools/cli/bands.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {

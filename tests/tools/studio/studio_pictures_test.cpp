@@ -210,8 +210,7 @@ TEST_F(StudioTest, TellsWhatIsUnderThePointer) {
 
 TEST_F(StudioTest, NamesLieOverThePictureInPixelsOfThePrint) {
   folder_.write("names.csv", "name,kind,east,north\nHill,summit,6000,5000\n");
-  posted("api/set",
-         R"({"changes": [{"key": "labels.points", "append": {"file": "names.csv"}}]})");
+  posted("api/set", R"({"changes": [{"key": "labels.points", "append": {"file": "names.csv"}}]})");
   EXPECT_EQ(get("api/names", {{"revision", "2"}}).status, 409) << "nothing is drawn yet";
   get("api/picture", {{"rung", "1"}, {"revision", "2"}});
   const json sheet = got("api/names", {{"revision", "2"}});

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "base/text/text_encoding.h"
-#include "tests/tools/cli/bands.h"
 #include "tests/grids.h"
 #include "tests/renderer/image/picture_bytes.h"
+#include "tests/tools/cli/bands.h"
 #include "tests/tools/program.h"
 #include "tests/tools/report/browser.h"
 
