@@ -348,8 +348,8 @@ namespace fs = std::filesystem;
 // Smooth, so that JPEG keeps it.
 Grid<glm::vec3> slope(int width, int height) {
   return test::grid_of<glm::vec3>(width, height, [&](int x, int y) {
-    return {static_cast<float>(x) / static_cast<float>(width),
-            static_cast<float>(y) / static_cast<float>(height), 0.5F};
+    return glm::vec3{static_cast<float>(x) / static_cast<float>(width),
+                     static_cast<float>(y) / static_cast<float>(height), 0.5F};
   });
 }
 
