@@ -4,63 +4,20 @@
 // BELVEDERE_SCENE names the scene and options of the command, "scenes/karwendel.toml --data ../data"; it is not saved. Without it the ground
 // is synthetic.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { mkdtemp, readFile, writeFile } from "node:fs/promises";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { setTimeout as sleep } from "node:timers/promises";
-import puppeteer from "puppeteer-core";
+import { opened, program_path, scene_file, skip } from "./real_program.mjs";
 
-const program_path = process.env.BELVEDERE_PROGRAM;
 const minutes = Number(process.env.BELVEDERE_MINUTES ?? 5);
-const patience = { timeout: Number(process.env.BELVEDERE_PATIENCE_MS ?? 240000) };
 const mib = 1024;
-
-const synthetic = `version = 1
-[terrain.synthetic]
-width = 800
-height = 800
-cell_m = 30
-[camera]
-position = [12000, -6000]
-height_m = 5000
-look_at = [12000, 12000]
-[synthesis]
-enabled = false
-[output]
-width = 1000
-height = 460
-`;
-
-let program, browser, page, address;
+let program, page, close;
 
 before(async () => {
   if (!program_path) return;
-  let scene = process.env.BELVEDERE_SCENE?.split(" ");
-  if (!scene) {
-    scene = [join(await mkdtemp(join(tmpdir(), "studio-")), "hills.toml")];
-    await writeFile(scene[0], synthetic);
-  }
-  program = spawn(program_path, ["studio", ...scene, "--headless", "--quiet"], { stdio: ["ignore", "pipe", "inherit"] });
-  let said = "";
-  for await (const bytes of program.stdout) {
-    said += bytes;
-    if (said.includes("}\n")) break;
-  }
-  ({ address } = JSON.parse(said));
-  browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
-  page = await browser.newPage();
-  await page.setViewport({ width: 1280, height: 720 });
-  page.on("dialog", (dialog) => dialog.accept());
-  await page.goto(address);
-  // The whole ladder once, with all that it keeps in memory.
-  await page.waitForFunction(() => document.body.dataset.ready === "true" && document.body.dataset.working === "false", patience);
+  ({ program, page, close } = await opened(process.env.BELVEDERE_SCENE?.split(" ") ?? [await scene_file()]));
 });
-after(async () => {
-  await browser?.close();
-  program?.kill("SIGINT");
-});
+after(() => close?.());
 
 // Resident memory of the program, KiB: now, and the most it ever had.
 async function memory() {
@@ -133,7 +90,7 @@ const hands = {
   },
 };
 
-test(`${minutes} minutes of dragging`, { skip: !program_path && "BELVEDERE_PROGRAM is not set" }, async (context) => {
+test(`${minutes} minutes of dragging`, { skip }, async (context) => {
   await page.click("#keep");
   const times = { camera: [], sun: [], equalizer: [] };
   const end = Date.now() + minutes * 60000;

@@ -270,8 +270,9 @@ const answers = {
         { name: "sky", value: "18 %", meaning: "of the picture is above the skyline", verdict: "good", advice: "" },
         { name: "rim", value: "hidden", verdict: "good", advice: "" },
         {
-          name: "valley floor",
-          value: "54 % visible",
+          name: "forms",
+          value: "9 %",
+          side: "low",
           verdict: "note",
           advice: "A smaller radius of the bend shows more of it: try belvedere deform --search-bend.",
         },

@@ -1413,3 +1413,15 @@ test("a lift is drawn by clicks, named, given another point and removed", async 
   assert.equal(await value("labels.shapes.0.file"), undefined);
   await finished();
 });
+
+test("the critique speaks in sentences, marks its place, and mends", async () => {
+  const button = await page.waitForSelector("#critique .mend", patience);
+  assert.match(await text_of("#critique li.note .advice"), /The land looks flat\./);
+  await button.hover();
+  await page.waitForSelector("#critique-mark:not([hidden])", patience);
+  const before = (await value("deform.exaggeration")) ?? 1.5;
+  await button.evaluate((each) => each.click());
+  await becomes("deform.exaggeration", Math.round(before * 112) / 100);
+  await undo();
+  assert.doesNotMatch(await text_of("#critique"), /[a-z]+\.[a-z_]+_deg|camera\./);
+});

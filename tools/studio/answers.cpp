@@ -311,6 +311,9 @@ Json check_json(const ViewEvaluation& evaluation) {
                   .add("name", Json::text(term.name))
                   .add("value", Json::text(measure_text(term)))
                   .add("meaning", Json::text(term.meaning))
+                  .add("side", Json::text(advice.empty()            ? ""
+                                          : advice == term.too_high ? "high"
+                                                                    : "low"))
                   .add("verdict", Json::text(advice.empty() ? "good" : "note"))
                   .add("advice", Json::text(advice)));
   }

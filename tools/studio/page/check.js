@@ -1,5 +1,6 @@
 // The critique beside the picture: what `belvedere check` says of this view, and the notes of the picture.
 import { api } from "./api.js";
+import { in_words } from "./critique.js";
 import { by_id, element } from "./dom.js";
 
 const signs = { good: "●", note: "◆", bad: "▲" };
@@ -9,6 +10,7 @@ export class Check {
   constructor(store) {
     this.store = store;
     this.box = by_id("critique");
+    this.mark = by_id("critique-mark");
     store.on("changed", () => this.box.classList.add("old"));
   }
 
@@ -26,19 +28,41 @@ export class Check {
   show(items) {
     const order = ["bad", "note", "good"];
     const sorted = [...items].sort((a, b) => order.indexOf(a.verdict) - order.indexOf(b.verdict));
-    const list = sorted.map(({ name, value, meaning, verdict, advice }) =>
-      element(
+    const list = sorted.map((item) => {
+      const { value, meaning, verdict } = item;
+      const { title, part, says, mend } = in_words(item);
+      const point = (on) => () => this.point(on ? part : null);
+      return element(
         "li",
-        { class: verdict, title: meaning ? `${value} ${meaning}` : null },
+        { class: verdict, title: meaning ? `${value} ${meaning}` : null, pointerenter: point(true), pointerleave: point(false), focusin: point(true), focusout: point(false) },
         element("span", { class: "sign", role: "img", "aria-label": words[verdict] ?? verdict }, signs[verdict] ?? "●"),
-        element("span", { class: "name" }, name),
+        element("span", { class: "name" }, title),
         element("span", { class: "value" }, value ?? ""),
-        advice && verdict !== "good" ? element("span", { class: "advice" }, advice) : null,
-      ),
-    );
+        says && verdict !== "good"
+          ? element(
+              "span",
+              { class: "advice" },
+              `${says} `,
+              mend && element("button", { type: "button", class: "mend", click: () => this.mend(mend) }, mend.label),
+            )
+          : null,
+      );
+    });
     for (const note of this.store.state.notes ?? [])
       list.push(element("li", { class: "note" }, element("span", { class: "sign" }, "◆"), element("span", { class: "advice" }, note)));
     this.box.replaceChildren(...list);
     this.box.classList.remove("old");
+    this.point(null);
+  }
+  mend({ label, changes }) {
+    const all = changes(this.store);
+    if (all.length > 0) this.store.locks.edit(all, `${label}. Ctrl-Z goes back.`);
+  }
+  // Marks a part of the picture.
+  point(part) {
+    this.mark.hidden = !part;
+    if (!part) return;
+    const [left, top, width, height] = part.map((share) => `${100 * share}%`);
+    Object.assign(this.mark.style, { left, top, width, height });
   }
 }
