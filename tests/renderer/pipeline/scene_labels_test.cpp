@@ -375,9 +375,15 @@ TEST_F(ManyNames, OneIsMovedAnotherHiddenByHand) {
   const std::string moved = placed->point.name;
   const std::string hidden = std::next(placed)->point.name;
   LabelJob job = job_;
-  job.by_hand = {{.name = moved, .dx_mm = 12.0, .dy_mm = -20.0, .rank = 2.0, .kind = "hut"},
-                 {.name = hidden, .hidden = true},
-                 {.name = "Nowhere", .hidden = true}};
+  job.by_hand.resize(3);
+  job.by_hand[0].name = moved;
+  job.by_hand[0].dx_mm = 12.0;
+  job.by_hand[0].dy_mm = -20.0;
+  job.by_hand[0].rank = 2.0;
+  job.by_hand[0].kind = "hut";
+  job.by_hand[1].name = hidden;
+  job.by_hand[1].hidden = true;
+  job.by_hand[2].name = "Nowhere";
   test::Notes notes;
   const LabelSheet sheet = make_label_sheet(*loaded_, job, *bare_, notes);
   const auto named = [&](const std::string& name) {
@@ -393,7 +399,7 @@ TEST_F(ManyNames, OneIsMovedAnotherHiddenByHand) {
               12.0 * sheet.px_per_mm, 1e-6);
   EXPECT_NEAR(label.spot.text.bottom - label.mark.pixel.y, -20.0 * sheet.px_per_mm, 1e-6);
   EXPECT_THAT(notes.text(), testing::HasSubstr("Nowhere"));
-  job.by_hand = {{.name = moved, .kind = "volcano"}};
+  job.by_hand[0].kind = "volcano";
   EXPECT_THAT(
       test::error_of([&] { make_label_sheet(*loaded_, job, *bare_, silent_progress()); }).what(),
       testing::AllOf(testing::HasSubstr("labels.by_hand.0.kind"), testing::HasSubstr("summit")));
