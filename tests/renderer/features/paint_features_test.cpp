@@ -260,7 +260,7 @@ TEST(PaintFeatures, TellsHowFarRopesHang) {
           .empty());
   const PixelRect part{140, 90, 291, 201};
   const Grid<float> window = find_overhead(cable, part);
-  for (const auto [x, y] : test::cells(part))
+  for (const auto [x, y] : test::cells(part.width(), part.height()))
     ASSERT_EQ(window(x, y), overhead(part.x0 + x, part.y0 + y));
 }
 

@@ -30,7 +30,7 @@ struct Product {
 Product product_of(PixelRect rect) {
   Product product{Grid<std::uint32_t>(rect.width(), rect.height()),
                   Grid<std::uint8_t>(rect.width(), rect.height())};
-  for (const auto [x, y] : test::cells(rect)) {
+  for (const auto [x, y] : test::cells(rect.width(), rect.height())) {
     product.position(x, y) = static_cast<std::uint32_t>((rect.y0 + y) * 1000 + rect.x0 + x);
     product.column(x, y) = static_cast<std::uint8_t>(rect.x0 + x);
   }

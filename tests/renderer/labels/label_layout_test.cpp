@@ -56,11 +56,11 @@ TEST(LabelLayout, TheSecondOfTwoNeighboursStandsHigherOnALeader) {
 
 // Offsets are from the mark to the centre of the foot of the text.
 TEST(LabelLayout, ANamePlacedByHandStaysAndOthersMakeRoom) {
-  std::vector<LabelRequest> requests = {summit(400.0, 300.0, 1.0), summit(430.0, 300.0, 9.0)};
-  requests[1].by_hand_px = glm::dvec2(-30.0, -6.0);  // where the first would have its name
+  std::vector<LabelRequest> requests = {summit(400.0, 300.0, 1.0), summit(330.0, 340.0, 9.0)};
+  requests[1].by_hand_px = glm::dvec2(30.0, -46.0);  // where the first would have its name
   const std::vector<LabelSpot> spots = place_labels(requests, no_sky, sheet);
   ASSERT_TRUE(spots[0].placed && spots[1].placed);
-  EXPECT_DOUBLE_EQ(.5 * (spots[1].text.left + spots[1].text.right), 400.0);
+  EXPECT_DOUBLE_EQ(.5 * (spots[1].text.left + spots[1].text.right), 360.0);
   EXPECT_DOUBLE_EQ(spots[1].text.bottom, 294.0);
   EXPECT_FALSE(spots[0].text.overlaps(spots[1].text)) << "although it has the better rank";
   requests[0].by_hand_px = glm::dvec2(0.0, -6.0);

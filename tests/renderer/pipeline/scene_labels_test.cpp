@@ -399,7 +399,7 @@ TEST_F(ManyNames, OneIsMovedAnotherHiddenByHand) {
               12.0 * sheet.px_per_mm, 1e-6);
   EXPECT_NEAR(label.spot.text.bottom - label.mark.pixel.y, -20.0 * sheet.px_per_mm, 1e-6);
   EXPECT_THAT(notes.text(), testing::HasSubstr("Nowhere"));
-  job.by_hand[0].kind = "volcano";
+  job.by_hand[0].kind = "spaceship";
   EXPECT_THAT(
       test::error_of([&] { make_label_sheet(*loaded_, job, *bare_, silent_progress()); }).what(),
       testing::AllOf(testing::HasSubstr("labels.by_hand.0.kind"), testing::HasSubstr("summit")));

@@ -145,7 +145,7 @@ TEST(RockRelief, OfAPartOfNearTurfIsThatOfTheWhole) {
         make_rock_relief(g, {g, 1, {0, 0}}, p, {0, 0}, silent_progress(), kept);
     const auto moved_to = [&](LandCoverClass id) {
       int count = 0;
-      for (const auto [x, y] : test::cells(kept))
+      for (const auto [x, y] : test::cells(kept.width(), kept.height()))
         count += whole.land_cover(x, y) == id && g.land_cover(kept.x0 + x, kept.y0 + y) != id;
       return count;
     };

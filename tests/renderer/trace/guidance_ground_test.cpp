@@ -75,7 +75,7 @@ TEST(GuidanceGround, BumpsOfLayersTurnTheNormals) {
   const PixelRect rect{17, 40, 70, 61};
   const GuidanceBuffers part = trace_guidance(world.terrain, world.surface, *world.tracer, *camera,
                                               {}, rect, silent_progress());
-  for (const auto [x, y] : test::cells(rect))
+  for (const auto [x, y] : test::cells(rect.width(), rect.height()))
     ASSERT_EQ(part.normal(x, y), bumpy.normal(rect.x0 + x, rect.y0 + y));
 }
 

@@ -336,7 +336,7 @@ Agreement agreement_of(const World& parts, std::size_t index) {
   };
   std::array<double, 2> same{};
   std::array<double, 2> all{};
-  for (const auto [x, y] : test::cells(window.part)) {
+  for (const auto [x, y] : test::cells(window.part.width(), window.part.height())) {
     const int from_edge =
         std::min({x, y, window.part.width() - 1 - x, window.part.height() - 1 - y});
     const std::size_t where = from_edge < 6 ? 0 : 1;

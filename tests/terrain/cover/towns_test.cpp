@@ -306,7 +306,7 @@ TEST(TownFile, RefusesWhatIsNoSize) {
               AllOf(HasSubstr("name, east, north, size"), HasSubstr("radius_m or population")));
   EXPECT_THAT(refused("east,north,radius_m\n1,2,large\n"),
               AllOf(HasSubstr("t.csv:2"), HasSubstr("radius_m is \"large\"")));
-  EXPECT_THAT(refused("east,north,population\n1,2,-5\n"), HasSubstr("0 or more"));
+  EXPECT_THAT(refused("east,north,population\n1,2,-5\n"), HasSubstr("0 …"));
   EXPECT_THAT(refused("east,north,radius_m\n1,2,60000\n"), HasSubstr("at most 50000 m"));
 }
 

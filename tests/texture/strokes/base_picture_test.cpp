@@ -117,7 +117,8 @@ Picture make_sheet(int width_units, int height_units, double pixels_per_unit) {
 template <class T>
 Grid<T> cut(const Grid<T>& grid, const PixelRect& rect) {
   Grid<T> part(rect.width(), rect.height());
-  for (const auto [x, y] : test::cells(rect)) part(x, y) = grid(rect.x0 + x, rect.y0 + y);
+  for (const auto [x, y] : test::cells(rect.width(), rect.height()))
+    part(x, y) = grid(rect.x0 + x, rect.y0 + y);
   return part;
 }
 

@@ -144,7 +144,8 @@ TEST(CloseViews, AWindowIsPaintedAsTheWhole) {
                        std::min(300, wanted.x1 + margin), std::min(300, wanted.y1 + margin)};
   const auto cut = [&](const auto& grid) {
     std::decay_t<decltype(grid)> part(held.width(), held.height());
-    for (const auto [x, y] : test::cells(held)) part(x, y) = grid(held.x0 + x, held.y0 + y);
+    for (const auto [x, y] : test::cells(held.width(), held.height()))
+      part(x, y) = grid(held.x0 + x, held.y0 + y);
     return part;
   };
   Picture w = p;

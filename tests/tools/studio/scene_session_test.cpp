@@ -274,7 +274,9 @@ TEST_F(SceneSessionTest, WhatIsDrawnFollowsUndoAsAFileBesideTheScene) {
   EXPECT_EQ(session.drawn_file(), "hills_drawn.geojson");
   const std::string file = folder_ / session.drawn_file();
   const std::vector<SceneEdit> block = {
-      {.key = "features", .value = "{source = \"hills_drawn.geojson\"}", .append = true}};
+      {.key = "features",
+       .value = "{source = \"hills_drawn.geojson\", kind = \"road\"}",
+       .append = true}};
   session.draw("{\"one\": 1}\n", block, "");
   EXPECT_EQ(test::read_bytes(file), "{\"one\": 1}\n");
   session.draw("{\"two\": 2}\n", {}, "");
