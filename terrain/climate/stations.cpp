@@ -27,8 +27,8 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // NaN if the field is empty.
 double number_in(const PointTable& table, const PointTable::Point& point, int column, double min,
-                 double max) {
-  return table.number(point, column, min, max).value_or(unknown);
+                 double max, const char* unit) {
+  return table.number(point, column, min, max, unit).value_or(unknown);
 }
 
 int find_one_of(const PointTable& table, const std::vector<const char*>& names) {
@@ -69,17 +69,17 @@ StationTable from_points(const std::string& path, const std::string& crs) {
     Station station;
     station.name = name < 0 ? point.where : point.values[static_cast<std::size_t>(name)];
     station.position = point.position;
-    station.altitude_m = number_in(table, point, altitude, -500.0, 9000.0);
+    station.altitude_m = number_in(table, point, altitude, -500.0, 9000.0, "metres");
     if (std::isnan(station.altitude_m))
       throw Error(ErrorKind::usage, point.where,
                   fmt::format("no {}", table.columns[static_cast<std::size_t>(altitude)]),
                   "the station's altitude");
     for (std::size_t m = 0; m < 12; ++m)
-      station.temperature_c[m] = number_in(table, point, month[m], -90.0, 60.0);
-    station.temperature_year_c = number_in(table, point, year, -90.0, 60.0);
+      station.temperature_c[m] = number_in(table, point, month[m], -90.0, 60.0, "°C");
+    station.temperature_year_c = number_in(table, point, year, -90.0, 60.0, "°C");
     if (std::isnan(station.temperature_year_c))
       station.temperature_year_c = year_mean(station.temperature_c);
-    station.rain_mm = number_in(table, point, rain, 0.0, 20000.0);
+    station.rain_mm = number_in(table, point, rain, 0.0, 20000.0, "mm");
     out.stations.push_back(station);
   }
   return out;

@@ -75,15 +75,16 @@ PointTable read_csv_points(const VectorSource& source, const std::string& crs) {
 
 }  // namespace
 
-std::optional<double> PointTable::number(const Point& point, int column, double min,
-                                         double max) const {
+std::optional<double> PointTable::number(const Point& point, int column, double min, double max,
+                                         std::string_view unit) const {
   if (column < 0 || point.values[static_cast<std::size_t>(column)].empty()) return std::nullopt;
   const std::string& text = point.values[static_cast<std::size_t>(column)];
   const std::optional<double> value = parse_number<double>(text);
   if (!value || !(*value >= min && *value <= max))
     throw Error(ErrorKind::usage, point.where,
                 fmt::format("{} is \"{}\"", columns[static_cast<std::size_t>(column)], text),
-                fmt::format("a number, {} … {}, or empty if unknown", min, max));
+                fmt::format("a number{}{}, {} … {}, or empty if unknown",
+                            unit.empty() ? "" : " of ", unit, min, max));
   return value;
 }
 

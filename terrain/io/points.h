@@ -24,8 +24,9 @@ struct PointTable {
   // The column of that name, case-insensitive; -1 if there is none.
   int find(std::string_view column) const;
   // The number in a column; nothing if the column is -1 or its field is empty. Error(usage) for
-  // other text and beyond min … max.
-  std::optional<double> number(const Point& point, int column, double min, double max) const;
+  // other text and beyond min … max. unit: for messages.
+  std::optional<double> number(const Point& point, int column, double min, double max,
+                               std::string_view unit = {}) const;
 };
 
 // The points of a CSV file with columns lon and lat (degrees) or east and north (of `crs`), or of a

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,8 @@
 
 #include "base/grid.h"
 #include "renderer/image/image_io.h"
+#include "terrain/io/crs.h"
+#include "terrain/io/raster_io.h"
 #include "tests/files.h"
 #include "tests/scenes.h"
 #include "tools/studio/studio.h"
@@ -31,6 +34,19 @@ class StudioTest : public testing::Test {
     replace("width = 96\nheight = 80\nsheet_width_mm = 96",
             "width = 48\nheight = 40\nsheet_width_mm = 48");
     return text + "[synthesis]\nenabled = false  # no paintings\n";
+  }
+  // The same hills as a file with a coordinate system, 680 km east and 5260 km north.
+  void put_on_earth() {
+    Raster<float> raster{
+        Grid<float>(30, 28), {680000.0, 5271200.0, 400.0, 400.0}, normalize_crs("EPSG:32632")};
+    for (int y = 0; y < 28; ++y)
+      for (int x = 0; x < 30; ++x)
+        raster.cells(x, y) =
+            600.F + 500.F * static_cast<float>(std::sin(.7 * x) * std::cos(.5 * y));
+    write_raster(folder_ / "hills.tif", raster);
+    posted("api/set", R"({"changes": [{"key": "terrain.synthetic", "remove": true},
+      {"key": "terrain.sources", "append": {"file": "hills.tif"}},
+      {"key": "camera.position", "value": [686000, 5256000]}]})");
   }
   void open() { studio_ = std::make_unique<Studio>(StudioParameters{path_, {}, 0}, run_); }
   Studio& studio() {

@@ -93,12 +93,17 @@ TEST_F(StudioTest, RefusesPicturesThatAreNotOrCannotBe) {
 
 TEST_F(StudioTest, FeaturesAreSwitchedOffAndOn) {
   const std::string rung = std::to_string(rungs().size() - 1);
-  const auto picture = [&] { return get("api/picture", {{"rung", rung}}).body; };
+  put_on_earth();
+  const auto picture = [&] {
+    const HttpAnswer answer = get("api/picture", {{"rung", rung}});
+    EXPECT_EQ(answer.status, 200) << answer.body;
+    return answer.body;
+  };
   const std::string bare = picture();
   folder_.write("roads.geojson",
                 R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {},
                    "geometry": {"type": "LineString",
-                                "coordinates": [[2000, 3000], [6000, 5000], [10000, 4000]]}}]})");
+                                "coordinates": [[11.41, 47.49], [11.45, 47.51], [11.50, 47.50]]}}]})");
   posted("api/set", R"({"changes": [{"key": "features", "append":
                         {"source": "roads.geojson", "kind": "motorway", "width_mm": 4}}]})");
   const std::string drawn = picture();
@@ -274,15 +279,18 @@ TEST_F(StudioTest, TellsTheGroundSeenAsOneBinary) {
 // What resorts ask for every summer.
 TEST_F(StudioTest, ANewLiftChangesItsOwnPixelsAlone) {
   const std::string last = std::to_string(rungs().size() - 1);
+  put_on_earth();
   const Grid<glm::vec3> before = decoded(get("api/picture", {{"rung", last}}));
   const json state = posted("api/draw", R"({"features": {"type": "FeatureCollection", "features": [
       {"type": "Feature", "properties": {"kind": "lift", "name": "7"},
-       "geometry": {"type": "LineString", "coordinates": [[5000, 2000], [6500, 5000]]}}]},
+       "geometry": {"type": "LineString", "coordinates": [[11.44, 47.49], [11.47, 47.52]]}}]},
       "changes": [{"key": "features",
                    "append": {"source": "hills_drawn.geojson", "kind_of": "kind"}}]})");
   EXPECT_EQ(state["drawn"]["features"].size(), 1U);
   EXPECT_EQ(state["drawn_file"], "hills_drawn.geojson");
-  const Grid<glm::vec3> after = decoded(get("api/picture", {{"rung", last}}));
+  const HttpAnswer drawn = get("api/picture", {{"rung", last}});
+  ASSERT_EQ(drawn.status, 200) << drawn.body;
+  const Grid<glm::vec3> after = decoded(drawn);
   int changed = 0;
   for (int y = 0; y < after.height(); ++y)
     for (int x = 0; x < after.width(); ++x) {
@@ -291,11 +299,13 @@ TEST_F(StudioTest, ANewLiftChangesItsOwnPixelsAlone) {
       const json ground = got("api/pointer", {{"x", std::to_string((x + .5) / after.width())},
                                               {"y", std::to_string((y + .5) / after.height())}});
       if (ground["sky"] == true) continue;
-      const glm::dvec2 at(ground["position"][0], ground["position"][1]);
-      const glm::dvec2 from(5000.0, 2000.0);
-      const glm::dvec2 along = glm::normalize(glm::dvec2(1500.0, 3000.0));
-      EXPECT_LT(std::abs(along.x * (at.y - from.y) - along.y * (at.x - from.x)), 1000.0)
-          << x << ", " << y;
+      // Degrees of longitude are two thirds as long as those of latitude here.
+      const glm::dvec2 at(ground["lonlat"][0].get<double>() * .676, ground["lonlat"][1]);
+      const glm::dvec2 from(11.44 * .676, 47.49);
+      const glm::dvec2 along = glm::normalize(glm::dvec2(.03 * .676, .03));
+      const double aside_m =
+          111200.0 * std::abs(along.x * (at.y - from.y) - along.y * (at.x - from.x));
+      EXPECT_LT(aside_m, 1000.0) << x << ", " << y;
     }
   EXPECT_GT(changed, 0);
   EXPECT_LT(changed, 48 * 40 / 8);

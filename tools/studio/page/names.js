@@ -65,10 +65,12 @@ export class Names {
     this.layer.classList.remove("old");
     this.layer.toggleAttribute("hidden", !this.on || !sheet?.width);
     if (!sheet?.width) return this.choose(null);
+    const focused = this.layer.contains(document.activeElement) && document.activeElement.dataset.name;
     this.layer.setAttribute("viewBox", `0 0 ${sheet.width} ${sheet.height}`);
     const tracks = drawing("g", { class: "tracks" });
     tracks.innerHTML = without_styles(sheet.tracks);
     this.layer.replaceChildren(tracks, ...names.filter((name) => name.placed).map((name) => this.name(name)));
+    if (focused) Array.from(this.layer.querySelectorAll(".name")).find((each) => each.dataset.name === focused)?.focus();
     const again = this.chosen && names.find((name) => name.name === this.chosen.name && name.placed);
     this.choose(again ?? null);
   }
