@@ -381,7 +381,7 @@ test("a locked key is left as it is by pictures, copies and proposals, and stays
   await sleep(300);
   assert.equal((await scene()).text, text);
   await panel("camera");
-  await page.click("[data-key='camera.position'] > .lock");
+  await page.$eval("[data-key='camera.position'] > .lock", (button) => button.click()); // it may be folded
   await page.click("#propose");
   await page.waitForSelector(".proposal", patience);
   const [position, target] = [await value("camera.position"), await value("camera.look_at")];
@@ -393,7 +393,7 @@ test("a locked key is left as it is by pictures, copies and proposals, and stays
   await finished();
   await panel("camera");
   assert.equal(await page.$eval("[data-key='camera.position'] > .lock", (button) => button.getAttribute("aria-pressed")), "true");
-  await page.click("[data-key='camera.position'] > .lock");
+  await page.$eval("[data-key='camera.position'] > .lock", (button) => button.click()); // it may be folded
   await panel("look");
   await page.click(lock);
   await choose("Palette", "winter");

@@ -1032,6 +1032,14 @@ const shown = (key) =>
     value: field.value === "" ? null : Number(field.value),
     grey: field.closest(".row").classList.contains("is-auto"),
   }));
+// The same once a panel that was opened has its values.
+async function comes_to_show(key, wanted) {
+  for (const end = Date.now() + 3000; Date.now() < end && (await shown(key)).value !== wanted.value; await sleep(50))
+    await page.$eval(`[data-key='${key}']`, (found) => {
+      for (let each = found.closest("details"); each; each = each.parentElement.closest("details")) each.open = true;
+    });
+  assert.deepEqual(await shown(key), wanted, key);
+}
 const press_auto = (key) => page.$eval(`[data-key='${key}'] .auto`, (button) => button.click());
 const back_to = async (text) => {
   await page.evaluate((wanted) => document.activeElement?.blur() ?? wanted, text);
@@ -1089,7 +1097,7 @@ test("fields left to the program show what is in effect, and auto writes no othe
     });
     await sleep(100);
     for (const [key, number] of Object.entries(values)) {
-      assert.deepEqual(await shown(key), { value: number, grey: true }, key);
+      await comes_to_show(key, { value: number, grey: true });
       await press_auto(key);
       await becomes(key, number);
       await press_auto(key);
@@ -1097,6 +1105,9 @@ test("fields left to the program show what is in effect, and auto writes no othe
     }
   }
   await back_to(text);
+  await page.$$eval("details.more[open]", (found) => {
+    for (const each of found) each.open = false;
+  });
 });
 
 test("what was typed out of range stays with its reason beside it", async () => {
