@@ -114,9 +114,9 @@ test("an hour at the desk", { skip }, async (context) => {
   }
 
   await page.click("#tab-look");
-  const tile = await page.waitForSelector('[role=radiogroup] [role=radio]:not([aria-checked="true"]) canvas:not([hidden])', patience);
+  const tile = await page.waitForSelector('#panel-look [data-key=palette] [role=radio].seen[aria-checked="false"]', patience);
   const palette = await value("palette");
-  await drawn("palette by its picture", () => tile.evaluate((each) => each.closest("[role=radio]").click()));
+  await drawn("palette by its picture", () => tile.evaluate((each) => each.click()));
   await becomes(() => value("palette"), (now) => now !== palette);
   await finished();
 
@@ -160,6 +160,10 @@ test("an hour at the desk", { skip }, async (context) => {
   );
   assert.equal(different, 0, "the last rung is the rendering");
   context.diagnostic(times.join(", "));
-  assert.deepEqual(errors, []);
+  // 409 is how a picture says that a newer one has taken its place.
+  assert.deepEqual(
+    errors.filter((each) => !each.includes("409")),
+    [],
+  );
   assert.equal(await page.$eval("#message", (box) => (box.hidden ? "" : box.textContent)), "");
 });
