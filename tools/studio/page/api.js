@@ -9,12 +9,17 @@ export class Refused extends Error {
   }
 }
 
-async function answered(address, options) {
+// A connection that was idle may be closed just when it is used again: what only reads is asked for once more.
+async function answered(address, options, again = options?.method !== "POST") {
   let response;
   try {
     response = await fetch(address, { cache: "no-store", ...options });
   } catch (error) {
     if (error.name === "AbortError") throw error;
+    if (again) {
+      await new Promise((resolve) => setTimeout(resolve, 300));
+      return answered(address, options, false);
+    }
     throw new Refused(0, { message: "The program does not answer. Is belvedere still running?" });
   }
   if (response.ok) return response;
