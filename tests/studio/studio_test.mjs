@@ -1369,6 +1369,7 @@ test("names lie over the picture; one that is dragged keeps its millimetres from
   await change_scene([{ key: "labels.points", append: { file: "peaks.csv" } }]);
   const name = '#names [data-name="Birkkar"]';
   await page.waitForSelector(name, patience);
+  assert.equal(await page.$eval(`${name} text`, (each) => getComputedStyle(each).fontSize), "40px", "the print's letters, not the page's");
   const { width } = await page.$eval("#names", (each) => each.getBoundingClientRect().toJSON());
   await drag(`${name} .hold`, 100, -50);
   await changed("labels.by_hand.0.dx_mm", undefined);

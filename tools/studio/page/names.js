@@ -161,6 +161,9 @@ export class Names {
   }
 }
 
-// The page's policy refuses style attributes; SVG has an attribute for each of these properties.
+// The page's policy refuses style attributes; SVG has an attribute for each of these properties. A family whose name has a word that begins
+// with a figure needs quotes.
 const without_styles = (svg) =>
-  svg.replace(/ style="([^"]*)"/g, (_, css) => css.replace(/\s*([\w-]+):\s*([^;]*);?/g, (each, name, value) => ` ${name}="${value.trim()}"`));
+  svg
+    .replace(/ style="([^"]*)"/g, (_, css) => css.replace(/\s*([\w-]+):\s*([^;]*);?/g, (each, name, value) => ` ${name}="${value.trim()}"`))
+    .replace(/ font-family="([^"]*)"/g, (_, families) => ` font-family="${families.split(",").map((each) => `'${each.trim()}'`)}"`);
