@@ -60,6 +60,10 @@ export class Drawing {
   }
   take(pointed, share) {
     if (!this.points) return;
+    if (!pointed.lonlat) {
+      this.leave();
+      return this.hands.say("The terrain states no coordinate system, so nothing can be drawn on it.");
+    }
     const last = this.points.at(-1);
     const box = by_id("frame").getBoundingClientRect();
     const again = last && Math.hypot((share[0] - last.share[0]) * box.width, (share[1] - last.share[1]) * box.height) < end_px;
@@ -231,10 +235,9 @@ export class Drawing {
   }
 }
 
-// Positions in the terrain's own coordinates stay beside those in degrees, so that the page needs no map projection. A terrain that states
-// no coordinate system has its own alone.
+// Positions in the terrain's own coordinates stay beside those in degrees, so that the page needs no map projection.
 function feature(kind, name, points) {
-  const coordinates = points.map(({ lonlat, position }) => (lonlat ?? position).map((degrees) => Number(degrees.toFixed(6))));
+  const coordinates = points.map(({ lonlat }) => lonlat.map((degrees) => Number(degrees.toFixed(6))));
   const positions = points.map(({ position }) => position.map((metres) => Number(metres.toFixed(1))));
   const { area } = kinds[kind] ?? {};
   return {
