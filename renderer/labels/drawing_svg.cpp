@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -178,11 +179,25 @@ std::string bent_text_svg(const DrawnText& text, const std::string& look,
                      markup_text(text.text), halo, letters);
 }
 
+// Families as CSS has them: one with a word that begins with a figure, "EB Garamond 08", needs
+// quotes.
+std::string quoted_families(const std::string& families) {
+  std::string out;
+  for (std::size_t begin = 0; begin < families.size();) {
+    const std::size_t end = std::min(families.find(',', begin), families.size());
+    const std::size_t first = std::min(families.find_first_not_of(' ', begin), end);
+    out += (out.empty() ? "'" : ", '") + families.substr(first, end - first) + "'";
+    begin = end + 1;
+  }
+  return out;
+}
+
 // `measure` provides the measure of letters.
 std::string svg_of(const DrawnText& text, const std::function<const TextMeasure&()>& measure) {
   const TextStyle& type = text.type;
-  std::string look = fmt::format(" font-family=\"{}\" font-size=\"{}px\" fill=\"{}\"",
-                                 markup_text(type.family), px(type.size_px), text.colour);
+  std::string look =
+      fmt::format(" font-family=\"{}\" font-size=\"{}px\" fill=\"{}\"",
+                  markup_text(quoted_families(type.family)), px(type.size_px), text.colour);
   if (text.text.find_first_of("0123456789") != std::string::npos)
     look += " font-variant-numeric=\"lining-nums\"";
   if (type.weight != 400) look += fmt::format(" font-weight=\"{}\"", type.weight);
@@ -194,7 +209,7 @@ std::string svg_of(const DrawnText& text, const std::function<const TextMeasure&
   // Inkscape and librsvg.
   if (!text.halo.empty() && text.halo_px > 0.0)
     look += fmt::format(
-        " style=\"paint-order: stroke; stroke: {}; stroke-width: {}px; stroke-linejoin: round\"",
+        " paint-order=\"stroke\" stroke=\"{}\" stroke-width=\"{}px\" stroke-linejoin=\"round\"",
         text.halo, px(2.0 * text.halo_px));
   const char* anchor = text.anchor <= .25 ? "start" : text.anchor < .75 ? "middle" : "end";
   return fmt::format("<text x=\"{}\" y=\"{}\"{} text-anchor=\"{}\">{}</text>", px(text.at.x),

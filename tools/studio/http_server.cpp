@@ -257,7 +257,8 @@ std::string read_geojson_member(const std::string& body, const std::string& name
   if (!member->is_object() || features == member->end() || !features->is_array())
     throw not_understood(name + " is no feature collection");
   if (features->empty()) return {};
-  std::string out = "{\"type\": \"FeatureCollection\", \"features\": [\n";
+  std::string out =
+      "{\"type\": \"FeatureCollection\", " + std::string(drawn_mark) + ", \"features\": [\n";
   for (std::size_t i = 0; i < features->size(); ++i)
     out += (*features)[i].dump() + (i + 1 < features->size() ? ",\n" : "\n");
   return out + "]}\n";

@@ -25,8 +25,8 @@ constexpr std::size_t max_steps = 1000;  // of undo; texts of some kilobytes
 SceneSession::SceneSession(std::string path, SceneFileOptions options)
     : path_(std::move(path)), options_(std::move(options)), scene_(read_scene(path_, options_)) {
   now_.text = read_file();
-  std::ifstream drawn(drawn_path(), std::ios::binary);
-  now_.drawn.assign(std::istreambuf_iterator<char>(drawn), {});
+  const std::string drawn = read_drawn();
+  if (drawn.find(drawn_mark) != std::string::npos) now_.drawn = drawn;
   saved_ = now_;
 }
 
@@ -45,6 +45,11 @@ std::string SceneSession::drawn_path() const {
   return (fs::path(path_).parent_path() / drawn_file()).string();
 }
 
+std::string SceneSession::read_drawn() const {
+  std::ifstream file(drawn_path(), std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 LoadedScene SceneSession::parse(const std::string& text) const {
   const fs::path path(path_);
   return parse_scene(text, path.filename().string(), path.parent_path().string(), options_);
@@ -54,6 +59,9 @@ void SceneSession::change_to(Version version) {
   if (version == now_) return;
   LoadedScene scene = parse(version.text);
   if (version.drawn != now_.drawn) {
+    if (read_drawn() != now_.drawn)
+      throw Error(ErrorKind::output, drawn_path(), "was written or changed by another program",
+                  "move that file away, or open the studio again");
     if (version.drawn.empty())
       fs::remove(drawn_path());
     else

@@ -10,6 +10,9 @@
 
 namespace belvedere::tools {
 
+// In every file of drawn features, so that those of other programs are told from them.
+inline constexpr const char* drawn_mark = "\"written_by\": \"belvedere studio\"";
+
 // A scene file while somebody composes: its text, which is the truth, the features that were drawn
 // on the page, the scene that they mean, and the versions before and after for undo and redo. The
 // drawn features are a GeoJSON file beside the scene, SCENE_drawn.geojson, which follows each step
@@ -30,7 +33,8 @@ class SceneSession {
   // Each change leaves a scene that can be parsed, or throws Error(usage) and changes nothing.
   // Edits with the same `step`, if it is not empty, are one step of undo.
   void edit(std::span<const SceneEdit> edits, const std::string& step);
-  // The same with other drawn features; empty: no file.
+  // The same with other drawn features, a text with drawn_mark; empty: no file. Error(output) where
+  // the file there is not the one that was written last, here and wherever that file changes.
   void draw(const std::string& geojson, std::span<const SceneEdit> edits, const std::string& step);
   void replace(const std::string& text);
   // The scene as it would be.
@@ -59,6 +63,7 @@ class SceneSession {
   void change_to(Version version);
   void take(Version version, const std::string& step);
   std::string drawn_path() const;
+  std::string read_drawn() const;
   LoadedScene parse(const std::string& text) const;
   std::string read_file() const;
 

@@ -273,27 +273,44 @@ TEST_F(SceneSessionTest, WhatIsDrawnFollowsUndoAsAFileBesideTheScene) {
   SceneSession session(path_, {});
   EXPECT_EQ(session.drawn_file(), "hills_drawn.geojson");
   const std::string file = folder_ / session.drawn_file();
+  const std::string one = std::string("{") + drawn_mark + ", \"one\": 1}\n";
+  const std::string two = std::string("{") + drawn_mark + ", \"two\": 2}\n";
   const std::vector<SceneEdit> block = {
       {.key = "features",
        .value = "{source = \"hills_drawn.geojson\", kind = \"road\"}",
        .append = true}};
-  session.draw("{\"one\": 1}\n", block, "");
-  EXPECT_EQ(test::read_bytes(file), "{\"one\": 1}\n");
-  session.draw("{\"two\": 2}\n", {}, "");
+  session.draw(one, block, "");
+  EXPECT_EQ(test::read_bytes(file), one);
+  session.draw(two, {}, "");
   EXPECT_FALSE(session.is_saved());
   session.undo();
-  EXPECT_EQ(test::read_bytes(file), "{\"one\": 1}\n");
+  EXPECT_EQ(test::read_bytes(file), one);
   EXPECT_EQ(session.scene().scene.features.size(), 1U);
   session.undo();
   EXPECT_FALSE(std::filesystem::exists(file)) << "as it was before";
   EXPECT_TRUE(session.is_saved());
   session.redo();
   session.save(false);
-  session.draw("{\"two\": 2}\n", {}, "");
+  session.draw(two, {}, "");
   session.revert();
-  EXPECT_EQ(SceneSession(path_, {}).drawn(), "{\"one\": 1}\n") << "it is there in the next session";
+  EXPECT_EQ(SceneSession(path_, {}).drawn(), one) << "it is there in the next session";
   EXPECT_TRUE(session.is_saved());
   EXPECT_TRUE(session.can_undo());
+}
+
+TEST_F(SceneSessionTest, NoFileOfAnotherProgramIsReplacedByWhatIsDrawn) {
+  const std::string file = folder_.write("hills_drawn.geojson", "{\"mine\": 1}\n");
+  SceneSession session(path_, {});
+  EXPECT_EQ(session.drawn(), "");
+  const std::string one = std::string("{") + drawn_mark + "}\n";
+  EXPECT_EQ(test::error_of([&] { session.draw(one, {}, ""); }).kind(), ErrorKind::output);
+  EXPECT_EQ(test::read_bytes(file), "{\"mine\": 1}\n");
+  std::filesystem::remove(file);
+  session.draw(one, {}, "");
+  folder_.write("hills_drawn.geojson", "{\"changed\": 1}\n");
+  EXPECT_EQ(test::error_of([&] { session.undo(); }).kind(), ErrorKind::output);
+  EXPECT_EQ(test::read_bytes(file), "{\"changed\": 1}\n") << "nor removed";
+  EXPECT_EQ(session.drawn(), one);
 }
 
 TEST_F(SceneSessionTest, OfTwoSessionsTheSecondLearnsOfTheFirst) {

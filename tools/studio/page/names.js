@@ -68,7 +68,7 @@ export class Names {
     const focused = this.layer.contains(document.activeElement) && document.activeElement.dataset.name;
     this.layer.setAttribute("viewBox", `0 0 ${sheet.width} ${sheet.height}`);
     const tracks = drawing("g", { class: "tracks" });
-    tracks.innerHTML = without_styles(sheet.tracks);
+    tracks.innerHTML = sheet.tracks;
     this.layer.replaceChildren(tracks, ...names.filter((name) => name.placed).map((name) => this.name(name)));
     if (focused) Array.from(this.layer.querySelectorAll(".name")).find((each) => each.dataset.name === focused)?.focus();
     const again = this.chosen && names.find((name) => name.name === this.chosen.name && name.placed);
@@ -79,7 +79,7 @@ export class Names {
   name(name) {
     const [left, top, right, bottom] = name.box;
     const made = drawing("g", { class: "name" });
-    made.innerHTML = without_styles(name.svg);
+    made.innerHTML = name.svg;
     if (!name.name) return made;
     made.append(drawing("rect", { class: "hold", x: left, y: top, width: right - left, height: bottom - top }));
     made.setAttribute("tabindex", 0);
@@ -160,10 +160,3 @@ export class Names {
     this.tools.lastChild.disabled = this.index_of(name) < 0;
   }
 }
-
-// The page's policy refuses style attributes; SVG has an attribute for each of these properties. A family whose name has a word that begins
-// with a figure needs quotes.
-const without_styles = (svg) =>
-  svg
-    .replace(/ style="([^"]*)"/g, (_, css) => css.replace(/\s*([\w-]+):\s*([^;]*);?/g, (each, name, value) => ` ${name}="${value.trim()}"`))
-    .replace(/ font-family="([^"]*)"/g, (_, families) => ` font-family="${families.split(",").map((each) => `'${each.trim()}'`)}"`);
