@@ -224,7 +224,7 @@ constexpr double gravel_full_units = 1.8;
 constexpr double groves_from_units = 0.6;
 constexpr double groves_full_units = 2.6;
 constexpr double min_gravel_units = 0.4;
-constexpr double max_gravel_units = 3.4;
+constexpr double max_gravel_units = max_shore_units;
 constexpr double min_grove_units = 0.45;  // narrower ones are scraps of trees
 constexpr double max_grove_units = 2.2;
 // In half widths of the river.

@@ -347,11 +347,20 @@ bool has_groves(LandCoverClass id) {
   return id == valley_floor || id == pasture || id == shrub || id == forest || id == sand;
 }
 
+// Whether banks and shores are drawn: not in previews where even the broadest are about a pixel,
+// because all rivers get theirs anew for each view.
+bool draws_banks(const Scene& scene) {
+  constexpr double broad_px = 1.2;
+  return !(scene.terrain.preview_mcells > 0.0 &&
+           scene.pixels_per_unit() * max_shore_units < broad_px);
+}
+
 // The shores of rivers and the rivers, the topmost last. `cover` and `own` are the ground without
 // what is drawn for a view.
 std::vector<CoverRiver> with_shores(std::vector<CoverRiver> rivers, const LandCover& cover,
                                     const MapCover& own, const LoadedScene& loaded, const Dem& dem,
                                     const SeenFrom& seen) {
+  if (!draws_banks(loaded.scene)) return rivers;
   const double ppu = loaded.scene.pixels_per_unit();
   const auto class_at = [&](glm::dvec2 position) {
     const LandCoverClass known = own.at(position);
@@ -381,6 +390,7 @@ std::vector<CoverRiver> widen_rivers(std::vector<CoverRiver> rivers, bool fade,
           widen_for_view(std::move(rivers[i]), {min_river_px(of_kind, loaded), fade}, dem, seen);
     }
   });
+  if (!draws_banks(loaded.scene)) return rivers;
   return with_banks(std::move(rivers), loaded.scene.seed);
 }
 

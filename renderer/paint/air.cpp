@@ -19,7 +19,8 @@ constexpr double usual_haze = AirParameters{}.haze;
 }  // namespace
 
 double haze_share(const AirParameters& p, double depth_m, double altitude_m) {
-  const double beyond = std::max(depth_m - p.from_m, 0.0) / p.scale_m;
+  if (depth_m <= p.from_m) return 0.0;
+  const double beyond = (depth_m - p.from_m) / p.scale_m;
   const double by_distance = 1.0 - exact::exp(-exact::pow(beyond, 1.35));
   // Air is thinner at summits and denser in valleys.
   const double by_altitude =

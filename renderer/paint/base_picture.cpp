@@ -252,9 +252,10 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int x, int y, const Pa
   pixel.air = air_share(p.air, s.palette, depth, g.altitude_m[i], far, raised);
   pixel.edge =
       range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
-  pixel.mist = hollow_mist(s.around.mist[i], g.relief_l_m[i], g.slope_deg[i], separation) *
-               far_range_share(p.air, depth, g.altitude_m[i]) *
-               static_cast<float>(s.palette.haze_share);
+  pixel.mist = hollow_mist(s.around.mist[i], g.relief_l_m[i], g.slope_deg[i], separation);
+  if (pixel.mist != 0.0F)
+    pixel.mist *=
+        far_range_share(p.air, depth, g.altitude_m[i]) * static_cast<float>(s.palette.haze_share);
   pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
   pixel.end = end_at(s, i, x, patches);
   if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, woods, pixel.air);
@@ -367,9 +368,11 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& wate
     return pixel.finish(ramp, s.palette.range_mist);
   };
   const int step_px = std::max(1, static_cast<int>(std::lround(s.parameters.pixels_per_unit)));
-  return {.colour = paint(0.0),
-          .darker = paint(-tone_step),
-          .lighter = paint(tone_step),
+  const glm::vec3 colour = paint(0.0);
+  const bool tones = s.parameters.tones;
+  return {.colour = colour,
+          .darker = tones ? paint(-tone_step) : colour,
+          .lighter = tones ? paint(tone_step) : colour,
           .accent = accent_at(g, s.around.log_depth, x, y, step_px),
           .tree_density = id == Class::forest ? s.around.cover.density[i]
                                               : bush_density(id, s.around.wood[i], patches),

@@ -81,28 +81,39 @@ int block_px_for(const World& world, const ScenePaint& paint, const SheetView& v
                          paint.style ? &*paint.style : nullptr);
 }
 
-// Results of rays of the whole sheet, of the picture before if only paint differs; else null.
+// Results of rays of the whole sheet, of the picture before if only paint differs, and all but the
+// shadows if only the sun does; else null.
 std::shared_ptr<const GuidanceBuffers> kept_rays(const LoadedScene& loaded, const World& world,
                                                  const SheetView& view, PixelRect sheet,
                                                  const SheetWorkParameters& parameters,
                                                  const Run& run) {
   if (!parameters.keep_rays) return nullptr;
   ValueStore& store = *parameters.kept;
-  return SceneValues(loaded, &store, run.progress)
-      .make<const GuidanceBuffers>(
-          "rays",
-          [](Scene& to, const Scene& from) {
-            to.sun = from.sun;
-            to.sampling = from.sampling;
-            to.light_regions = from.light_regions;
-            to.light_clouds = from.light_clouds;
-          },
-          {{"tracer", store.key("tracer")},
-           {"terrain", store.key("terrain")},
-           {"land cover", store.key("land cover")},
-           content_of(world.view.camera)},
-          [&](const Making&) { return trace_view(world, view, sheet, run); })
-      .value;
+  const SceneValues values(loaded, &store, run.progress);
+  bool of_this_sun = false;
+  const auto rays = values.make<GuidanceBuffers>(
+      "rays", [](Scene& to, const Scene& from) { to.sampling = from.sampling; },
+      {{"tracer", store.key("tracer")},
+       {"terrain", store.key("terrain")},
+       {"land cover", store.key("land cover")},
+       content_of(world.view.camera)},
+      [&](const Making&) {
+        of_this_sun = true;
+        return trace_view(world, view, sheet, run);
+      });
+  rays->shadow = *values.make<const Grid<float>>(
+      "shadows",
+      [](Scene& to, const Scene& from) {
+        to.seed = from.seed;
+        to.sun = from.sun;
+        to.light_regions = from.light_regions;
+        to.light_clouds = from.light_clouds;
+      },
+      {rays},
+      [&](const Making&) {
+        return of_this_sun ? rays->shadow : trace_view_shadows(world, view, sheet, run);
+      });
+  return rays.value;
 }
 
 GroundInputs inputs_for(const ScenePaint& paint, const World& world, const SheetView& view,
@@ -110,6 +121,7 @@ GroundInputs inputs_for(const ScenePaint& paint, const World& world, const Sheet
   GroundInputs inputs = make_ground_inputs(world, view, paint.palette, run);
   inputs.rock_relief = rock_relief;
   if (!rock_relief) inputs.tone.ribs = 0.0;
+  inputs.base.tones = rock_relief;
   if (paint.style)
     inputs.style = make_sheet_style(
         *paint.style, to_style_parameters(world.scene, view.pixels_per_unit, view.camera.size()),

@@ -118,6 +118,7 @@ struct Tracing {
   std::vector<glm::dvec2> pixel_positions;
   std::vector<glm::dvec2> sun_places;
   std::vector<SkyDirection> sky_directions;
+  bool classes = true;  // false: the class of what is seen is not looked up, if it decides nothing
 };
 
 // The result of one primary ray of a pixel.
@@ -195,7 +196,7 @@ void trace_pixels(const Tracing& t, std::span<const glm::ivec2> pixels, glm::dve
   t.tracer.intersect(std::span(rays).first(count), std::span(hits).first(count));
   for (std::size_t i = 0; i < count; ++i) {
     seen[i] = {hits[i], LandCoverClass::sky};
-    if (hits[i].found)
+    if (hits[i].found && t.classes)
       seen[i].land_cover =
           class_at(ground_of(t.terrain, hits[i].window), hits[i].column, hits[i].row);
   }
@@ -314,15 +315,23 @@ bool local_suns(const Tracing& t, const BlockSamples& samples,
   return turned;
 }
 
-// Traces one block and writes its pixels inside the region.
-void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, GuidanceBuffers& out) {
-  thread_local BlockSamples samples;
+// What the primary rays of a block see.
+struct BlockSeen {
+  BlockSamples samples;
+  std::array<std::size_t, trace_block_pixels> chosen{};  // of the samples of each pixel
+  BlockSurface block;
+  bool any_terrain = false;
+};
+
+// One per thread, so that tracing allocates nothing.
+BlockSeen& see_block(const Tracing& t, glm::ivec2 corner) {
+  thread_local BlockSeen seen_block;
+  auto& [samples, chosen, block, any_terrain] = seen_block;
   trace_primary(t, corner, samples);
   const std::size_t per_pixel = t.pixel_positions.size();
-  BlockSurface block;
+  block = {};
   block.corner = corner;
-  std::array<std::size_t, trace_block_pixels> chosen{};
-  bool any_terrain = false;
+  any_terrain = false;
   for (int p = 0; p < trace_block_pixels; ++p) {
     const auto i = static_cast<std::size_t>(p);
     const std::span<const Seen> seen = std::span(samples).subspan(i * per_pixel, per_pixel);
@@ -337,24 +346,37 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
         true, hit.distance_m,
         ray.origin + ray.direction * hit.distance_m + normal * t.parameters.shadow_bias_m, normal};
   }
-  BlockValues sun{};
+  return seen_block;
+}
+
+// 1 where the pixels of a block see all of the sun, 0 in its shadow and where there is no terrain.
+BlockValues sun_of(const Tracing& t, const BlockSeen& of) {
+  if (!of.any_terrain || t.parameters.sun_direction.z <= 0.0) return {};
+  std::array<glm::dvec3, trace_block_pixels> own;
+  const bool turned = local_suns(t, of.samples, of.chosen, own);
+  return trace_sun(
+      t.tracer, of.block, t.sun_places,
+      turned ? std::span<const glm::dvec3>(own) : std::span(&t.parameters.sun_direction, 1),
+      t.parameters.sun_radius_rad);
+}
+
+bool is_in(PixelRect region, glm::ivec2 pixel) {
+  return pixel.x >= region.x0 && pixel.y >= region.y0 && pixel.x < region.x1 && pixel.y < region.y1;
+}
+
+// Traces one block and writes its pixels inside the region.
+void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, GuidanceBuffers& out) {
+  const BlockSeen& of = see_block(t, corner);
+  const auto& [samples, chosen, block, any_terrain] = of;
+  const std::size_t per_pixel = t.pixel_positions.size();
+  const BlockValues sun = sun_of(t, of);
   BlockValues sky{};
-  if (any_terrain) {
-    if (t.parameters.sun_direction.z > 0.0) {
-      std::array<glm::dvec3, trace_block_pixels> own;
-      const bool turned = local_suns(t, samples, chosen, own);
-      sun = trace_sun(
-          t.tracer, block, t.sun_places,
-          turned ? std::span<const glm::dvec3>(own) : std::span(&t.parameters.sun_direction, 1),
-          t.parameters.sun_radius_rad);
-    }
+  if (any_terrain)
     sky = trace_sky(t.tracer, block, t.sky_directions, t.parameters.sampling.sky_reach_m);
-  }
 
   for (int p = 0; p < trace_block_pixels; ++p) {
     const glm::ivec2 pixel = corner + block_pixel(p);
-    if (pixel.x < region.x0 || pixel.y < region.y0 || pixel.x >= region.x1 || pixel.y >= region.y1)
-      continue;
+    if (!is_in(region, pixel)) continue;
     const std::size_t o = out.depth_m.index(pixel.x - region.x0, pixel.y - region.y0);
     const auto i = static_cast<std::size_t>(p);
     const std::span<const Seen> seen = std::span(samples).subspan(i * per_pixel, per_pixel);
@@ -386,10 +408,13 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
 
 }  // namespace
 
-GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurface& surface,
-                               const Tracer& tracer, const Camera& camera,
-                               const GuidanceParameters& parameters, PixelRect region,
-                               Progress& progress) {
+namespace {
+
+// Calls trace(tracing, corner) for every block of a rectangle.
+template <class TraceBlock>
+void for_blocks(const TerrainModel& terrain, const DeformedSurface& surface, const Tracer& tracer,
+                const Camera& camera, const GuidanceParameters& parameters, PixelRect region,
+                bool classes, Progress& progress, const TraceBlock& trace) {
   check_parameters(parameters);
   const glm::ivec2 size = camera.size();
   if (region.x0 < 0 || region.y0 < 0 || region.x1 > size.x || region.y1 > size.y ||
@@ -415,30 +440,62 @@ GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurfac
                         parameters,
                         pixel_sample_positions(parameters.sampling.pixel_samples),
                         disc_positions(parameters.sampling.shadow_rays),
-                        sky_directions((parameters.sampling.sky_directions + 3) / 4)};
-  GuidanceBuffers out = make_buffers(region.width(), region.height());
-  out.origin_m = surface.origin;
+                        sky_directions((parameters.sampling.sky_directions + 3) / 4),
+                        classes};
   progress.begin("trace", static_cast<double>(region.width()) * region.height());
   // Blocks are at multiples of their size in the whole picture; tiles are whole blocks.
   const int bx0 = region.x0 / trace_block_px;
   const int by0 = region.y0 / trace_block_px;
   const int across = (region.x1 + trace_block_px - 1) / trace_block_px - bx0;
   const int down = (region.y1 + trace_block_px - 1) / trace_block_px - by0;
-  parallel_tiles(
-      across, down, std::max(parameters.tile_size / trace_block_px, 1), [&](PixelRect blocks) {
-        for (int y = blocks.y0; y < blocks.y1; ++y) {
-          for (int x = blocks.x0; x < blocks.x1; ++x) {
-            trace_block(tracing, glm::ivec2(bx0 + x, by0 + y) * trace_block_px, region, out);
-          }
-        }
-        progress.advance(static_cast<double>(blocks.width()) * blocks.height() *
-                         trace_block_pixels * region.width() * region.height() /
-                         (static_cast<double>(across) * down * trace_block_pixels));
-      });
+  parallel_tiles(across, down, std::max(parameters.tile_size / trace_block_px, 1),
+                 [&](PixelRect blocks) {
+                   for (int y = blocks.y0; y < blocks.y1; ++y)
+                     for (int x = blocks.x0; x < blocks.x1; ++x)
+                       trace(tracing, glm::ivec2(bx0 + x, by0 + y) * trace_block_px);
+                   progress.advance(static_cast<double>(blocks.width()) * blocks.height() *
+                                    trace_block_pixels * region.width() * region.height() /
+                                    (static_cast<double>(across) * down * trace_block_pixels));
+                 });
+}
+
+}  // namespace
+
+GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurface& surface,
+                               const Tracer& tracer, const Camera& camera,
+                               const GuidanceParameters& parameters, PixelRect region,
+                               Progress& progress) {
+  GuidanceBuffers out = make_buffers(std::max(region.width(), 0), std::max(region.height(), 0));
+  out.origin_m = surface.origin;
+  for_blocks(terrain, surface, tracer, camera, parameters, region, true, progress,
+             [&](const Tracing& t, glm::ivec2 corner) { trace_block(t, corner, region, out); });
   if (parameters.sampling.sky_directions > 0)
     out.sky_view = mean_of_squares(out.sky_view, out.depth_m);
   out.silhouette = find_silhouettes(out.depth_m);
   return out;
+}
+
+Grid<float> trace_shadows(const TerrainModel& terrain, const DeformedSurface& surface,
+                          const Tracer& tracer, const Camera& camera,
+                          const GuidanceParameters& parameters, PixelRect region,
+                          Progress& progress) {
+  const GuidanceChannel& shadow = channel_of(&GuidanceBuffers::shadow);
+  GuidanceBuffers out;
+  fill_channel(out, shadow, std::max(region.width(), 0), std::max(region.height(), 0), shadow.sky);
+  // Of several rays a pixel, classes choose the one that counts.
+  const bool classes = parameters.sampling.pixel_samples > 1;
+  for_blocks(terrain, surface, tracer, camera, parameters, region, classes, progress,
+             [&](const Tracing& t, glm::ivec2 corner) {
+               const BlockSeen& of = see_block(t, corner);
+               const BlockValues sun = sun_of(t, of);
+               for (int p = 0; p < trace_block_pixels; ++p) {
+                 const glm::ivec2 pixel = corner + block_pixel(p);
+                 const auto i = static_cast<std::size_t>(p);
+                 if (is_in(region, pixel) && of.block.pixels[i].terrain)
+                   out.shadow(pixel.x - region.x0, pixel.y - region.y0) = sun[i];
+               }
+             });
+  return out.shadow;
 }
 
 }  // namespace belvedere

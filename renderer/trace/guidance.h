@@ -42,6 +42,12 @@ GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurfac
                                const GuidanceParameters& parameters, PixelRect region,
                                Progress& progress);
 
+// The channel `shadow` alone, with the same bits: for another sun over what is traced already.
+Grid<float> trace_shadows(const TerrainModel& terrain, const DeformedSurface& surface,
+                          const Tracer& tracer, const Camera& camera,
+                          const GuidanceParameters& parameters, PixelRect region,
+                          Progress& progress);
+
 // How far a pixel's values reach into its neighbourhood.
 constexpr int guidance_margin_px() { return 2; }
 

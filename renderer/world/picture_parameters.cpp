@@ -11,7 +11,6 @@
 #include "base/random.h"
 #include "renderer/paint/clouds/clouds.h"
 #include "renderer/world/scene_season.h"
-#include "terrain/climate/map_position.h"
 
 namespace belvedere {
 namespace {
@@ -27,16 +26,6 @@ std::uint64_t sky_seed(const World& world) {
       static_cast<std::int64_t>(std::llround(world.view.camera.azimuth_deg)));
   return mix_bits(mix_bits(mix_bits(world.scene.seed + to_100_m(viewer.x)) + to_100_m(viewer.y)) +
                   to_degree);
-}
-
-// 1 where the noon sun is in the south, -1 in the north. Where the latitude is not known, the
-// northern hemisphere is assumed.
-double find_sunny_side(const World& world) {
-  const Dem& dem = *world.terrain.dem;
-  if (!knows_place(world.scene, dem)) return 1.0;
-  const MapPosition position = make_map_position(dem.transform, dem.crs, dem.width(), dem.height(),
-                                                 world.scene.climate.latitude_deg);
-  return position.centre_lonlat_deg().y < 0.0 ? -1.0 : 1.0;
 }
 
 // The sides of the data; none where rays are parallel.
@@ -88,7 +77,7 @@ BaseParameters to_base_parameters(const World& world, const Palette& palette,
   parameters.rock = &find_rock_kind(world.scene.land_cover.rock);
   parameters.sun_image_x = world.view.sun_image_x;
   parameters.light_field = world.light_field;
-  parameters.sunny_side = find_sunny_side(world);
+  parameters.sunny_side = world.sunny_side;
   parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.seed = world.scene.seed;
   parameters.air.sky = find_sky_kind(world.scene.sky);
@@ -162,16 +151,30 @@ std::optional<WaterImage> trace_reflections(const World& world, const SheetView&
   return paint_water_image(sight, rect, guidance, palette, look, wanted);
 }
 
-GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect region,
-                           const Run& run) {
+namespace {
+
+GuidanceParameters to_guidance_parameters(const World& world, const Run& run) {
   GuidanceParameters parameters;
   parameters.sampling = world.scene.sampling;
   parameters.sun_direction = world.view.sun_direction;
   parameters.light_field = world.light_field;
   parameters.sun_radius_rad = to_radians(world.scene.sun.radius_deg);
   parameters.tile_size = run.tile_px;
-  return trace_guidance(world.terrain, *world.surface, world.tracer, view.camera, parameters,
-                        region, run.progress);
+  return parameters;
+}
+
+}  // namespace
+
+GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect region,
+                           const Run& run) {
+  return trace_guidance(world.terrain, *world.surface, world.tracer, view.camera,
+                        to_guidance_parameters(world, run), region, run.progress);
+}
+
+Grid<float> trace_view_shadows(const World& world, const SheetView& view, PixelRect region,
+                               const Run& run) {
+  return trace_shadows(world.terrain, *world.surface, world.tracer, view.camera,
+                       to_guidance_parameters(world, run), region, run.progress);
 }
 
 GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect region,

@@ -28,6 +28,9 @@ SheetView reduced_view(const World& world, const Camera& reduced, int factor);
 // Traces all channels of a rectangle of the view.
 GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect region,
                            const Run& run);
+// Traces cast shadows alone: the same as in those channels.
+Grid<float> trace_view_shadows(const World& world, const SheetView& view, PixelRect region,
+                               const Run& run);
 // Traces only the channels that depend on form and not on light, one ray per pixel.
 GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect region,
                             const Run& run);

@@ -30,10 +30,12 @@
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
 #include "renderer/world/scene_light.h"
+#include "renderer/world/scene_season.h"
 #include "renderer/world/scene_style.h"
 #include "renderer/world/scene_values.h"
 #include "renderer/world/view.h"
 #include "renderer/world/viewer_check.h"
+#include "terrain/climate/map_position.h"
 #include "terrain/cover/map_cover.h"
 #include "terrain/io/raster_io.h"
 
@@ -150,6 +152,7 @@ void reads_of_lines(Scene& to, const Scene& from) {
   to.features_style = from.features_style;
   to.features = from.features;
   to.output = from.output;
+  to.terrain.preview_mcells = from.terrain.preview_mcells;
 }
 
 void reads_of_masks(Scene& to, const Scene& from) {
@@ -170,6 +173,15 @@ void reads_of_generalized(Scene& to, const Scene& from) {
 }
 
 void reads_everything(Scene& to, const Scene& from) { to = from; }
+
+// 1 where the noon sun is in the south, -1 in the north. Where the latitude is not known, the
+// northern hemisphere is assumed.
+double find_sunny_side(const Scene& scene, const Dem& dem) {
+  if (!knows_place(scene, dem)) return 1.0;
+  const MapPosition position = make_map_position(dem.transform, dem.crs, dem.width(), dem.height(),
+                                                 scene.climate.latitude_deg);
+  return position.centre_lonlat_deg().y < 0.0 ? -1.0 : 1.0;
+}
 
 }  // namespace
 
@@ -246,8 +258,10 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
                 return preview_masks(n.scene, *opened->data, dem->halved - opened->data->halved,
                                      land_cover->map.get(), n.progress);
               });
+        // Files of every position of a slider would crowd out those of prints.
+        const Cache& kept = opened->data && values.keeps() ? no_cache() : cache;
         if (!values.keeps()) opened->data.reset();
-        return generalize_for_view(m.scene, *dem, land_cover.get(), of_viewer, m.progress, cache,
+        return generalize_for_view(m.scene, *dem, land_cover.get(), of_viewer, m.progress, kept,
                                    {.masks = masks.value.get()});
       });
 
@@ -309,6 +323,9 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
   check_ground_in_view(*dem, *camera, *tracer, progress);
   const double horizon_px = skyline_row_px(*camera, *tracer, usual_horizon * scene.output.height);
   MistAir mist = make_scene_mist(scene, view, *terrain, deformation, *camera);
+  const auto sunny_side = values.make<const double>(
+      "sunny side", [](Scene& to, const Scene& from) { to.climate = from.climate; }, {opened},
+      [&](const Making& m) { return find_sunny_side(m.scene.scene, *dem); });
   return {scene,
           dem,
           view,
@@ -322,7 +339,8 @@ World make_world(const LoadedScene& loaded, Progress& progress, const Cache& cac
           *tracer,
           waters.value,
           horizon_px,
-          std::move(mist)};
+          std::move(mist),
+          *sunny_side};
 }
 
 FileNotes make_world_notes(const LoadedScene& loaded, const World& world) {

@@ -56,6 +56,7 @@ struct World {
   const std::shared_ptr<const LazyWaters> waters;  // of the terrain
   const double horizon_px;                         // row of the skyline's median
   const MistAir mist;
+  const double sunny_side;  // as in BaseParameters
 };
 
 // Terrain to reuse, for several views of one synthetic terrain; null members are made.

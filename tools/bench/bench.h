@@ -12,6 +12,7 @@ struct Options {
   int repeats = 3;                        // of each measurement; the fastest counts
   std::string scene;                      // of the sections studio and picture
   std::vector<std::string> data_folders;  // with its data
+  std::string gesture;  // of the section studio: that alone, in the first rung; empty: all
 };
 
 // One figure of the report.

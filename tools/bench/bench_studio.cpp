@@ -39,6 +39,10 @@ constexpr Gesture gestures[] = {
     {"viewer", "camera.position", 692000.0, 100.0, "[{}, 5302000]"},
     {"exaggeration", "deform.exaggeration", 1.4, 0.02},
     {"bend", "deform.bend.crest_m", 82000.0, 500.0},
+    {"handle", "deform.handles", 100.0, 20.0,
+     "[{{position=[690000,5249000],radius_m=3000,raise_m={}}}]"},
+    {"light", "light.regions", 2000.0, 50.0,
+     "[{{position=[690000,5249000],radius_m={},strength=1.3}}]"},
     {"equalizer", "generalize.crest", 0.5, 0.02},
     {"treeline", "land_cover.settings.treeline_m", 1500.0, 10.0},
     {"seed", "seed", 2.0, 1.0},
@@ -78,7 +82,8 @@ std::vector<Measurement> bench_studio(const Options& options) {
   const auto scene_with = [&](const std::string& setting) {
     return read_scene(options.scene, {options.data_folders, {setting}});
   };
-  for (std::size_t i = 0; i + 1 < rungs().size(); ++i) {
+  const std::size_t drawn = options.gesture.empty() ? rungs().size() - 1 : 1;
+  for (std::size_t i = 0; i < drawn; ++i) {
     const Rung& rung = rungs()[i];
     const Cost first = measure([&] { view.paint(scene_with("seed=1"), rung, run); });
     out.push_back({rung.name + "/first", first.wall_s * 1e3, "ms"});
@@ -93,6 +98,7 @@ std::vector<Measurement> bench_studio(const Options& options) {
       continue;
     }
     for (const Gesture& gesture : gestures) {
+      if (!options.gesture.empty() && options.gesture != gesture.name) continue;
       std::vector<double> wall_ms;
       std::vector<double> cpu_ms;
       for (int step = 0; step < steps_per_repeat * options.repeats; ++step) {
@@ -107,6 +113,8 @@ std::vector<Measurement> bench_studio(const Options& options) {
       out.push_back({name + "/median", percentile(wall_ms, 0.5), "ms"});
       out.push_back({name + "/95 %", percentile(wall_ms, 0.95), "ms"});
       out.push_back({name + "/median", percentile(cpu_ms, 0.5), "CPU ms"});
+      out.push_back(
+          {name + "/ratio to bare rays", percentile(cpu_ms, 0.5) / (1e3 * bare.cpu_s), ""});
     }
     out.push_back({rung.name + "/resident", resident_memory_mb(), "MB"});
   }

@@ -31,9 +31,11 @@ struct HttpRequest {
 // Sends a part of a streamed answer; false once the reader is gone.
 using SendPart = std::function<bool(std::string_view bytes)>;
 
+constexpr const char* json_type = "application/json";
+
 struct HttpAnswer {
   int status = 200;
-  std::string type = "application/json";
+  std::string type = json_type;
   std::string body = {};
   std::map<std::string, std::string> headers = {};
   std::function<void(const SendPart& send)> stream = {};  // instead of a body

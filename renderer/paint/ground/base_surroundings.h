@@ -40,6 +40,7 @@ struct BaseParameters {
   // colour is that of the ramp at the middle tone, times the light of the pixel's tone divided by
   // this mean.
   double mean_light = 0.0;
+  bool tones = true;  // BasePicture::darker and lighter, from which strokes are mixed; else colour
   std::shared_ptr<const WaterGround> waters =
       nullptr;  // lakes and their beds; null: all water looks the same and no bed shows
   WaterParameters water;
