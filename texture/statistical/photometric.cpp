@@ -317,6 +317,29 @@ Grid<glm::vec3> correct_colours(const Grid<glm::vec3>& source, const Grid<glm::v
   return out;
 }
 
+Grid<std::uint8_t> find_similar_colours(const Grid<glm::vec3>& picture, const Grid<glm::vec3>& crop,
+                                        double share, const Grid<std::uint8_t>& picture_counts,
+                                        const Grid<std::uint8_t>& crop_counts) {
+  // One region each: its mean, and the blurred colours.
+  PhotometricParameters one;
+  one.regions = 1;
+  const glm::dvec3 wanted = find_regions(crop, crop_counts, one, "crop").mean;
+  const Grid<glm::vec3> seen = find_regions(picture, picture_counts, one, "picture").seen;
+  Grid<float> distance(picture.width(), picture.height());
+  std::vector<float> counted;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    glm::dvec3 step = glm::dvec3(seen[i]) - wanted;
+    step.x *= 0.25;
+    distance[i] = static_cast<float>(glm::dot(step, step));
+    if (inside_mask(picture_counts, i)) counted.push_back(distance[i]);
+  }
+  const float farthest = value_at_share(std::move(counted), share);
+  Grid<std::uint8_t> out(picture.width(), picture.height());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = inside_mask(picture_counts, i) && distance[i] <= farthest ? 1 : 0;
+  return out;
+}
+
 std::array<double, 3> colour_histogram_distance(const Grid<glm::vec3>& a,
                                                 const Grid<glm::vec3>& b) {
   constexpr std::size_t count = 32;

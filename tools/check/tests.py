@@ -71,7 +71,7 @@ tested_by = {
     "tools/fuzz/fuzz": ("tools/fuzz/targets", "libFuzzer's driver of the same table; tools/check_all fuzz runs it"),
     "tools/report/layers_fit_page": ("tools/cli/layers/command_layers_fit", "ReportHoldsItsPage"),
     "tools/cli/texture/command_texture_correct": ("tools/cli/texture/command_texture_learn", "CorrectedPicturesHaveTheColoursOfTheOther"),
-    "tools/cli/texture/command_texture_fill": ("tools/cli/texture/command_texture_learn", "…MadeWithoutEnd fills with what was learnt"),
+    "tools/cli/texture/command_texture_fill": ("tools/cli/texture/command_texture_learn", "…MadeWithoutEnd, RemovesWhatIsMarked…, PlantsACrop…"),
     "tools/cli/texture/command_texture_seam":
         ("tools/cli/texture/command_texture_learn", "JoinsPicturesAndNothingElse, beside the others that need models"),
     "tools/cli/texture/command_texture_make":

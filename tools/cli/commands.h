@@ -73,6 +73,8 @@ Action add_composite_learn(CommandOptions& command);
 Action add_composite_make(CommandOptions& command);
 Action add_texture_correct(CommandOptions& command);
 Action add_texture_fill(CommandOptions& command);
+Action add_texture_plant(CommandOptions& command);
+Action add_texture_remove(CommandOptions& command);
 Action add_texture_seam(CommandOptions& command);
 Action add_texture_learn(CommandOptions& command);
 Action add_texture_make(CommandOptions& command);

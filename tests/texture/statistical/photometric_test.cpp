@@ -46,6 +46,31 @@ TEST(Photometric, HueSaturationValueAndBack) {
   }
 }
 
+// Of a bright and a dark half, the dark one has the crop's hue: it resembles the bright crop more.
+TEST(Photometric, WhatResemblesACropIsFoundInAnotherLight) {
+  const Grid<glm::vec3> picture = two_halves({.60, .5, .8}, {.30, .6, .35}, 1);
+  const Grid<glm::vec3> crop = two_halves({.30, .6, .7}, {.30, .6, .7}, 9);
+  const Grid<std::uint8_t> similar = find_similar_colours(picture, crop, .25);
+  int found = 0;
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x) {
+      found += similar(x, y);
+      if (y < 40) {
+        ASSERT_EQ(similar(x, y), 0);
+      }
+    }
+  EXPECT_NEAR(found, 96 * 96 / 4, 20);
+  Grid<std::uint8_t> counts(96, 96, 1);
+  for (int y = 48; y < 96; ++y)
+    for (int x = 0; x < 48; ++x) counts(x, y) = 0;
+  const Grid<std::uint8_t> rest = find_similar_colours(picture, crop, .25, counts);
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    if (counts[i] == 0) {
+      ASSERT_EQ(rest[i], 0);
+    }
+  EXPECT_THROW(find_similar_colours(picture, crop, .25, Grid<std::uint8_t>(96, 96)), Error);
+}
+
 TEST(Photometric, OwnColoursStay) {
   const Grid<glm::vec3> picture = two_halves({.6, .5, .8}, {.3, .6, .4}, 1);
   const Grid<glm::vec3> out = correct_colours(picture, picture, {.regions = 2});

@@ -142,6 +142,89 @@ TEST_F(Texture, CorrectedPicturesHaveTheColoursOfTheOther) {
   EXPECT_EQ(run({"texture", "correct", red, "--to", blue, "--out", red}).status, 2);
 }
 
+// A red disc on a meadow: the meadow grows over it, and no pixel beside it changes.
+TEST_F(Texture, RemovesWhatIsMarkedAndTouchesNothingElse) {
+  const Grid<Rgb8> meadow = test::meadow_crop(110, 100);
+  const auto marked = [](int x, int y) {
+    return (x - 50) * (x - 50) + (y - 45) * (y - 45) < 12 * 12;
+  };
+  const std::string picture = write_picture("p.png", 110, 100, [&](int x, int y) {
+    const Rgb8& c = meadow(x, y);
+    return marked(x, y) ? glm::vec3(1.F, 0.F, 0.F) : glm::vec3(c[0], c[1], c[2]) / 255.F;
+  });
+  const std::string mask =
+      write_labels("mask.tif", 110, 100, [&](int x, int y) { return marked(x, y) ? 1 : 0; });
+  ASSERT_THAT(run({"texture", "remove", picture, "--mask", mask, "--out", path("out.png"),
+                   "--report", path("page"), "-q"}),
+              Prints(HasSubstr("of 11000 pixels filled")));
+  EXPECT_THAT(read_bytes(path("page/index.html")),
+              AllOf(HasSubstr("texture remove p.png --mask mask.tif"), HasSubstr("after.png")));
+  const Grid<glm::vec3> before = read_picture(picture);
+  const Grid<glm::vec3> after = read_picture(path("out.png"));
+  for (const auto [x, y] : test::cells(110, 100)) {
+    if (!marked(x, y)) {
+      ASSERT_EQ(after(x, y), before(x, y)) << x << ", " << y;
+    } else {
+      ASSERT_GT(after(x, y).y, after(x, y).x - .1F) << "still red at " << x << ", " << y;
+    }
+  }
+  ASSERT_EQ(run({"texture", "remove", picture, "--mask", mask, "--out", path("one.png"),
+                 "--threads", "1", "-q"})
+                .status,
+            0);
+  EXPECT_EQ(read_picture(path("one.png")), after);
+  const std::string all = write_labels("all.tif", 110, 100, [](int, int) { return 1; });
+  EXPECT_THAT(run({"texture", "remove", picture, "--mask", all, "--out", path("x.png")}),
+              Ends(3, HasSubstr("no texture around them")));
+}
+
+// A crop in bright light is planted in a dim picture, half dim meadow and half grey ground: it has
+// the dim meadow's light, not its own and not the ground's.
+TEST_F(Texture, PlantsACropInThePicturesLight) {
+  const Grid<Rgb8> meadow = test::meadow_crop(120, 90);
+  const auto of = [&](int x, int y, float light) {
+    const Rgb8& c = meadow(x, y);
+    return glm::vec3(c[0], c[1], c[2]) * (light / 255.F);
+  };
+  const auto marked = [](int x, int y) { return x >= 12 && x < 48 && y >= 20 && y < 60; };
+  const std::string picture = write_picture("p.png", 120, 90, [&](int x, int y) {
+    return x < 60 ? glm::vec3(.35F + .02F * static_cast<float>((x * 5 + y * 3) % 7))
+                  : of(x, y, .5F);
+  });
+  const std::string crop =
+      write_picture("crop.png", 64, 64, [&](int x, int y) { return of(x, y, 1.F); });
+  const std::string mask =
+      write_labels("mask.tif", 120, 90, [&](int x, int y) { return marked(x, y) ? 1 : 0; });
+  const Grid<glm::vec3> before = read_picture(picture);
+  const auto mean_of_planted = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"texture", "plant", picture, "--mask",        mask,
+                                      "--from",  crop,    "--out", path("out.png"), "-q"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_THAT(run(words), Ends(0));
+    const Grid<glm::vec3> after = read_picture(path("out.png"));
+    glm::vec3 sum(0.F);
+    for (const auto [x, y] : test::cells(120, 90)) {
+      if (marked(x, y))
+        sum += after(x, y) / (36.F * 40.F);
+      else
+        EXPECT_EQ(after(x, y), before(x, y)) << x << ", " << y;
+    }
+    return sum;
+  };
+  glm::vec3 bright(0.F);
+  for (const auto [x, y] : test::cells(64, 64)) bright += of(x, y, 1.F) / (64.F * 64.F);
+  const glm::vec3 planted = mean_of_planted({});
+  const glm::vec3 uncorrected = mean_of_planted({"--as-it-is"});
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(planted[c], .5F * bright[c], .06F) << c;
+    EXPECT_NEAR(uncorrected[c], bright[c], .06F) << c;
+  }
+  const std::string ground =
+      write_labels("ground.tif", 120, 90, [](int x, int) { return x < 60 ? 1 : 0; });
+  const glm::vec3 grey = mean_of_planted({"--like", ground});
+  EXPECT_NEAR(grey.x, grey.z, .08F) << "of the ground that --like names";
+}
+
 TEST_F(Texture, BadInputIsNamed) {
   const auto refused = [&](const std::vector<std::string>& arguments, int status,
                            const std::string& word) {
