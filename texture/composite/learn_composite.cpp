@@ -29,25 +29,39 @@ PixelRect box_of(const Grid<std::uint8_t>& states) {
   return box;
 }
 
+constexpr std::ptrdiff_t min_label_pixels = std::ptrdiff_t{min_crop_px} * min_crop_px;
+
+bool is_large_enough(const Grid<std::uint8_t>& states) {
+  const PixelRect box = box_of(states);
+  return std::count(states.begin(), states.end(), pixel_free) >= min_label_pixels &&
+         box.width() >= min_crop_px && box.height() >= min_crop_px;
+}
+
+// Of one pixel or more.
+bool has_one_colour(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& states) {
+  std::size_t first = 0;
+  while (states[first] == 0) ++first;
+  for (std::size_t i = first; i < states.size(); ++i)
+    if (states[i] != 0 && picture[i] != picture[first]) return false;
+  return true;
+}
+
 // Requirements on the pixels of a label that are far enough from its borders.
 void check_label(const std::string& name, const Grid<Rgb8>& picture,
                  const Grid<std::uint8_t>& states) {
   const std::string where = "the label " + name;
-  const PixelRect box = box_of(states);
-  const auto count = std::count(states.begin(), states.end(), pixel_free);
-  constexpr std::ptrdiff_t min = std::ptrdiff_t{min_crop_px} * min_crop_px;
-  if (count < min || box.width() < min_crop_px || box.height() < min_crop_px)
+  if (!is_large_enough(states)) {
+    const PixelRect box = box_of(states);
     throw Error(
         ErrorKind::input, where,
-        fmt::format("{} pixels, {} × {}, are {} or more from its borders", count,
-                    std::max(0, box.width()), std::max(0, box.height()), label_inset_px),
+        fmt::format("{} pixels, {} × {}, are {} or more from its borders",
+                    std::count(states.begin(), states.end(), pixel_free), std::max(0, box.width()),
+                    std::max(0, box.height()), label_inset_px),
         fmt::format("at least {} pixels, {} × {}: merge it with a similar label, or leave it out",
-                    min, min_crop_px, min_crop_px));
-  std::size_t first = 0;
-  while (states[first] == 0) ++first;
-  for (std::size_t i = first; i < states.size(); ++i)
-    if (states[i] != 0 && picture[i] != picture[first]) return;
-  throw Error(ErrorKind::input, where, "it has a single colour", "a texture");
+                    min_label_pixels, min_crop_px, min_crop_px));
+  }
+  if (has_one_colour(picture, states))
+    throw Error(ErrorKind::input, where, "it has a single colour", "a texture");
 }
 
 CliqueModel learn_part(const LabelledCrop& crop, const Grid<std::uint8_t>& states, bool choose,
@@ -101,6 +115,51 @@ std::string hash_of(const LabelledCrop& crop) {
 
 }  // namespace
 
+Grid<std::uint8_t> join_small_labels(const LabelledCrop& crop) {
+  Grid<std::uint8_t> labels = crop.labels;
+  for (;;) {
+    const Grid<std::uint8_t> off_limits = near_borders(labels, label_inset_px);
+    std::array<std::size_t, no_label> pixels{};
+    for (const std::uint8_t label : labels)
+      if (label != no_label) ++pixels[label];
+    // The smallest of those that cannot be learnt.
+    std::size_t smallest = no_label;
+    for (std::size_t label = 0; label < no_label; ++label) {
+      if (pixels[label] == 0 || (smallest != no_label && pixels[label] >= pixels[smallest]))
+        continue;
+      const Grid<std::uint8_t> states =
+          states_where({crop.picture, crop.states, labels, {}},
+                       [&](std::size_t i) { return labels[i] == label && off_limits[i] == 0; });
+      if (!is_large_enough(states) || has_one_colour(crop.picture, states)) smallest = label;
+    }
+    // Neighbours along rows and columns.
+    std::array<std::size_t, no_label> border{};
+    const auto meet = [&](std::uint8_t a, std::uint8_t b) {
+      if (a == b || a == no_label || b == no_label) return;
+      if (a == smallest) ++border[b];
+      if (b == smallest) ++border[a];
+    };
+    for (int y = 0; y < labels.height(); ++y)
+      for (int x = 0; x < labels.width(); ++x) {
+        if (x > 0) meet(labels(x - 1, y), labels(x, y));
+        if (y > 0) meet(labels(x, y - 1), labels(x, y));
+      }
+    const auto longest = std::max_element(border.begin(), border.end());
+    if (smallest != no_label && *longest > 0) {
+      std::replace(labels.begin(), labels.end(), static_cast<std::uint8_t>(smallest),
+                   static_cast<std::uint8_t>(longest - border.begin()));
+      continue;
+    }
+    std::array<std::uint8_t, 256> number{};
+    number.fill(no_label);
+    std::uint8_t next = 0;
+    for (std::size_t label = 0; label < no_label; ++label)
+      if (pixels[label] > 0) number[label] = next++;
+    for (std::uint8_t& label : labels) label = number[label];
+    return labels;
+  }
+}
+
 CompositeModel learn_composite(const LabelledCrop& crop, const CompositeParameters& parameters,
                                Progress& progress) {
   if (!crop.labels.same_size(crop.picture))
@@ -130,8 +189,7 @@ CompositeModel learn_composite(const LabelledCrop& crop, const CompositeParamete
 
   const Grid<std::uint8_t> near = near_borders(crop.labels, transition_px);
   const Grid<std::uint8_t> zone = states_where(crop, [&](std::size_t i) { return near[i] != 0; });
-  const bool enough =
-      std::count(zone.begin(), zone.end(), pixel_free) >= std::ptrdiff_t{min_crop_px} * min_crop_px;
+  const bool enough = std::count(zone.begin(), zone.end(), pixel_free) >= min_label_pixels;
   const CompositeParameters white{.learn = parameters.learn};
   if (enough)
     out.transition = learn_part(crop, zone, false, white, progress);

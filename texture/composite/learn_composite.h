@@ -39,6 +39,12 @@ struct CompositeParameters {
 CompositeModel learn_composite(const LabelledCrop& crop, const CompositeParameters& parameters,
                                Progress& progress = silent_progress());
 
+// Labels that can all be learnt, from any (up to 255, such as segments): while one has too few
+// pixels that far from its borders, or a single colour, the smallest of those is joined to the
+// label with which it has the longest border. Numbered from 0 in their order; pixels of no_label
+// stay. `names` is not read.
+Grid<std::uint8_t> join_small_labels(const LabelledCrop& crop);
+
 // Errors of layout, which a composite reduces and a texture of one kind cannot: of the distribution
 // of colours over height, and of the relation of distant pixels. L1 distances, 0…2, of a picture to
 // its crop, which may be of another size.

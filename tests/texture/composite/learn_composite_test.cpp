@@ -53,6 +53,32 @@ TEST(LearnComposite, ShortBordersHaveNoTransition) {
   EXPECT_FALSE(learn_composite(two.crop(), test::quick_learning()).transition);
 }
 
+// A square of 20 pixels in the stripes joins them, a flat strip below joins what it touches, and
+// what is unknown stays so; numbers follow their order.
+TEST(LearnComposite, SmallLabelsAreJoinedToTheirNeighbours) {
+  test::Composite two = test::two_textures(120, 150);
+  const Grid<std::uint8_t> truth = two.labels;
+  for (std::uint8_t& label : two.labels) label = label == 0 ? 9 : 4;
+  for (const auto [x, y] : test::cells({50, 100, 70, 120})) two.labels(x, y) = 2;
+  for (const auto [x, y] : test::cells({0, 145, 120, 150})) {
+    two.labels(x, y) = 200;
+    two.picture(x, y) = {1, 2, 3};
+  }
+  for (const auto [x, y] : test::cells({0, 0, 10, 10})) two.labels(x, y) = no_label;
+  const Grid<std::uint8_t> joined = join_small_labels(two.crop());
+  for (const auto [x, y] : test::cells(120, 150)) {
+    if (x < 10 && y < 10)
+      ASSERT_EQ(joined(x, y), no_label);
+    else
+      ASSERT_EQ(joined(x, y), 1 - truth(x, y)) << x << ", " << y;
+  }
+  // All of them are small: one is left.
+  test::Composite tiny = test::two_textures(60, 60);
+  for (const auto [x, y] : test::cells(60, 60))
+    tiny.labels(x, y) = static_cast<std::uint8_t>(x / 10);
+  EXPECT_EQ(join_small_labels(tiny.crop()), Grid<std::uint8_t>(60, 60));
+}
+
 TEST(LearnComposite, BadLabelsAreNamed) {
   test::Composite two = test::two_textures(120, 120);
   two.names = {"3"};

@@ -2,18 +2,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <utility>
 
 #include "base/error.h"
 #include "base/files/output_file.h"
+#include "base/filter.h"
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "base/text/text_encoding.h"
+#include "renderer/exemplar/classes_by_paint.h"
 #include "texture/composite/learn_composite.h"
 #include "texture/composite/make_composite.h"
 #include "texture/composite/make_label_map.h"
+#include "texture/segment/segment.h"
+#include "texture/synthesis/exemplar.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/texture_pictures.h"
@@ -26,6 +32,7 @@ namespace {
 
 struct CompositeLearnOptions : RunOptions {
   std::string crop, labels, out, report;
+  std::string found;  // labels that the program found
   BeginOptions begin;
   CompositeParameters composite;
 };
@@ -137,9 +144,10 @@ void write_report(const CompositeLearnOptions& options, const TextureCrop& crop,
       border_text(found) + ".");
   report.write({.title = "Composite texture: " + file_name(options.crop),
                 .lead = fmt::format("A model of {} bytes.", found.bytes),
-                .command = fmt::format("belvedere composite learn {} --labels {} --out {}",
-                                       file_name(options.crop), file_name(options.labels),
-                                       file_name(options.out))});
+                .command = fmt::format(
+                    "belvedere composite learn {}{} --out {}", file_name(options.crop),
+                    options.labels.empty() ? "" : " --labels " + file_name(options.labels),
+                    file_name(options.out))});
 }
 
 CompositeParameters parameters_of(const CompositeLearnOptions& options) {
@@ -151,13 +159,58 @@ CompositeParameters parameters_of(const CompositeLearnOptions& options) {
   return parameters;
 }
 
+// Names of labels that the program finds: colours that no drawing confuses.
+constexpr std::array<const char*, max_labels> found_names = {
+    "#0000ff", "#008000", "#808080", "#ffff00", "#ff0000", "#00ffff", "#800080", "#ffffff",
+    "#000000", "#808000", "#00ff00", "#800000", "#008080", "#ff00ff", "#000080", "#c0c0c0"};
+
+// The segments of a crop (texture/segment), at most 16, of which those too small to learn are
+// joined to their neighbours. Transparent pixels take the nearest label.
+LabelPicture find_labels(const TextureCrop& crop, const std::string& path) {
+  Grid<float> alpha;
+  if (!crop.states.empty()) {
+    alpha = Grid<float>(crop.states.width(), crop.states.height());
+    std::transform(crop.states.begin(), crop.states.end(), alpha.begin(),
+                   [](std::uint8_t state) { return state != 0 ? 1.F : 0.F; });
+  }
+  const PaintingSegments segments =
+      segment_painting(to_picture(crop.picture), alpha, usual_theta, path);
+  const Partition groups =
+      cut_tree(segments.tree, std::min(segments.groups, std::size_t{max_labels}));
+  std::vector<std::uint8_t> label_of(groups.size());
+  std::transform(groups.begin(), groups.end(), label_of.begin(),
+                 [](std::uint16_t group) { return static_cast<std::uint8_t>(group); });
+  static_assert(unused_label == no_label);
+  const Grid<std::uint8_t> pieces = class_mask(segments, groups, label_of);
+  LabelPicture out{join_small_labels({crop.picture, crop.states, pieces, {}}), {}};
+  Grid<std::uint8_t> known(out.labels.width(), out.labels.height());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    known[i] = out.labels[i] != no_label ? 1 : 0;
+    if (known[i] != 0) count = std::max(count, std::size_t{out.labels[i]} + 1);
+  }
+  if (count < 2)
+    throw Error(ErrorKind::input, path, "no two textures are found in it that are large enough",
+                fmt::format("a larger crop, at least {} pixels per side of each, or --labels",
+                            min_crop_px));
+  const Grid<std::int32_t> nearest = nearest_marked(known);
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (known[i] == 0) out.labels[i] = out.labels[static_cast<std::size_t>(nearest[i])];
+  out.names.assign(found_names.begin(), found_names.begin() + static_cast<std::ptrdiff_t>(count));
+  return out;
+}
+
 int run(const CompositeLearnOptions& options) {
+  if (!options.found.empty() && lower_extension(options.found) != ".png")
+    throw Error(ErrorKind::usage, "--found", options.found, "a .png");
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const TextureCrop crop = read_crop(options.crop, "");
   if (crop.transparent > 0)
     progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
-  const LabelPicture labels = read_label_picture(options.labels, progress);
+  const LabelPicture labels = options.labels.empty() ? find_labels(crop, options.crop)
+                                                     : read_label_picture(options.labels, progress);
+  if (!options.found.empty()) write_label_picture(options.found, labels.labels, labels.names);
   if (!labels.labels.same_size(crop.picture))
     throw Error(ErrorKind::input, options.labels,
                 fmt::format("{} × {} pixels", labels.labels.width(), labels.labels.height()),
@@ -177,8 +230,10 @@ int run(const CompositeLearnOptions& options) {
   found.map =
       make_label_map(found.model.map, crop.picture.width(), crop.picture.height(), {}, progress);
   found.map_figures = label_map_figures(found.model.map, found.map);
-  found.filled =
-      make_composite(found.model, read_drawn_labels(options.labels, found.names), {}, progress);
+  found.filled = make_composite(
+      found.model,
+      options.labels.empty() ? labels.labels : read_drawn_labels(options.labels, found.names), {},
+      progress);
   found.made = make_composite(found.model, found.map, {}, progress);
   found.filled_figures = layout_figures(crop.picture, found.filled);
   found.made_figures = layout_figures(crop.picture, found.made);
@@ -202,10 +257,16 @@ Action add_composite_learn(CommandOptions& command) {
       .add_option("--labels", options->labels,
                   "Label image of its size in 2 to 16 flat colours, or of grey numbers; number 255 "
                   "is left out.\n"
-                  "Each colour is one texture, 48 pixels per side or more")
-      .required()
+                  "Each colour is one texture, 48 pixels per side or more. Default: segments that "
+                  "the program finds")
       .type_name("PICTURE")
       .files(FileUse::input);
+  command
+      .add_option("--found", options->found,
+                  "Without --labels: also writes the labels found, to be edited and passed to it")
+      .type_name("PICTURE")
+      .files(FileUse::writes)
+      .excludes({command.option("--labels")});
   command.add_option("--out", options->out, "The model: a text file of about 15 KB")
       .required()
       .type_name("COMPOSITE")
@@ -231,6 +292,7 @@ Action add_composite_learn(CommandOptions& command) {
       "along their borders, and the arrangement of the labels: what lies side by side, what above "
       "what, and the shape of borders.\n"
       "\n"
+      "  belvedere composite learn coast.png --found coast_labels.png --out coast.composite\n"
       "  belvedere composite learn coast.png --labels coast_labels.png --out coast.composite "
       "--report coast_report");
   return [options] { return run(*options); };

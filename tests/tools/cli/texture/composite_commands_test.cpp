@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
+#include <map>
 
+#include "base/random.h"
 #include "tests/grids.h"
 #include "tests/texture/composite/composite_crops.h"
 #include "tests/tools/program.h"
@@ -92,6 +95,59 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
   refused(
       {write("m.composite", "belvedere_texture = 1\n"), "--size", "9", "9", "--out", path("x.png")},
       2, "not a composite");
+}
+
+// Without labels: the segments of the crop, without the small ones. Blue above, a meadow below with
+// a red square in it that is too small to learn.
+TEST_F(Composite, FindsItsOwnLabels) {
+  const Grid<Rgb8> meadow = test::meadow_crop(150, 140);
+  const auto border = [](int x) { return 70.0 + 5.0 * gaussian_noise(4, x, 0, 6.0, 1.0); };
+  const auto is_red = [](int x, int y) { return x >= 60 && x < 80 && y >= 100 && y < 120; };
+  const std::string crop = write_picture("crop.png", 150, 140, [&](int x, int y) {
+    const Rgb8& c = meadow(x, y);
+    const glm::vec3 green = glm::vec3(c[0], c[1], c[2]) / 255.F;
+    if (is_red(x, y)) return glm::vec3(.9F, .1F * green.y, 0.F);
+    return y < border(x) ? glm::vec3(.3F * green.x, .5F * green.y, .6F + .3F * green.x) : green;
+  });
+  ASSERT_THAT(run({"composite", "learn", crop, "--types", "16", "--begin", "white", "--found",
+                   path("found.png"), "--out", path("c.composite"), "-q", "--json"}),
+              Prints(HasSubstr("\"#008000\"")));
+  const Grid<glm::vec3> found = read_picture(path("found.png"));
+  // Each label is of one half, and the square belongs to what surrounds it.
+  std::map<std::array<float, 3>, std::array<int, 2>> pixels;
+  for (const auto [x, y] : test::cells(150, 140)) {
+    const glm::vec3& c = found(x, y);
+    ++pixels[{c.x, c.y, c.z}][y < border(x) ? 0 : 1];
+  }
+  EXPECT_GE(pixels.size(), 2U);
+  EXPECT_LE(pixels.size(), 6U);
+  int strangers = 0;
+  for (const auto& [colour, halves] : pixels) {
+    EXPECT_GT(halves[0] + halves[1], 48 * 48);
+    strangers += std::min(halves[0], halves[1]);
+  }
+  EXPECT_LT(strangers, 150 * 140 / 25);
+  // The labels found are a drawing like any other.
+  ASSERT_EQ(run({"composite", "make", path("c.composite"), "--labels", path("found.png"), "--out",
+                 path("drawn.png"), "-q"})
+                .status,
+            0);
+  ASSERT_EQ(run({"composite", "make", path("c.composite"), "--size", "100", "90", "--out",
+                 path("made.png"), "-q"})
+                .status,
+            0);
+  const Grid<glm::vec3> made = read_picture(path("made.png"));
+  glm::vec3 above(0.F), below(0.F);
+  for (const auto [x, y] : test::cells(100, 20)) {
+    above += made(x, y) / 2000.F;
+    below += made(x, 70 + y) / 2000.F;
+  }
+  EXPECT_GT(above.z, above.y + .2F) << "blue";
+  EXPECT_GT(below.y, below.z + .1F) << "green";
+  EXPECT_EQ(run({"composite", "learn", crop, "--labels", path("found.png"), "--found",
+                 path("x.png"), "--out", path("x.composite")})
+                .status,
+            2);
 }
 
 TEST_F(Composite, NumbersAreLabelsToo) {
