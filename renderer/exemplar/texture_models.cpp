@@ -6,8 +6,7 @@
 #include <array>
 #include <glm/common.hpp>
 
-#include "base/error.h"
-#include "base/text/parse_number.h"
+#include "renderer/world/ground_texture.h"
 #include "texture/composite/make_composite.h"
 #include "texture/statistical/clique_model.h"
 #include "texture/synthesis/exemplar.h"
@@ -39,19 +38,15 @@ std::vector<SceneTextureModel>::const_iterator find_model(
 // Labels of a composite are class numbers: each paints its class.
 void add_labels(CompositeModel composite, const std::string& path, const SceneTextureModel& plain,
                 std::vector<SceneTextureModel>& models) {
-  for (CompositeLabel& label : composite.labels) {
-    const int number = parse_number<int>(label.name).value_or(-1);
-    if (number < 0 || number >= land_cover_class_count)
-      throw Error(
-          ErrorKind::usage, path, "a composite with the label " + label.name,
-          "labels that are class numbers: run `belvedere composite learn` with a mask of classes");
-    const auto id = static_cast<LandCoverClass>(number);
+  const std::vector<LandCoverClass> classes = classes_of_labels(composite, path);
+  for (std::size_t k = 0; k < classes.size(); ++k) {
+    const LandCoverClass id = classes[k];
     const bool served = plain.serves.empty() || std::find(plain.serves.begin(), plain.serves.end(),
                                                           id) != plain.serves.end();
     if (id == LandCoverClass::sky || !served) continue;  // the sky is the scene's
     SceneTextureModel& model = models.emplace_back(plain);
     model.name = fmt::format("{} ({})", plain.name, class_name(id));
-    model.model = std::move(label.model);
+    model.model = std::move(composite.labels[k].model);
     model.serves = {id};
   }
 }

@@ -10,7 +10,7 @@
 namespace belvedere {
 namespace {
 
-constexpr std::array<CachedProductInfo, 9> table = {{
+constexpr std::array<CachedProductInfo, 10> table = {{
     {CachedProduct::synthetic_terrain, "synthetic terrain", 1},
     {CachedProduct::elevation, "elevation", 1},
     {CachedProduct::land_cover, "land cover by rules", 2},
@@ -20,6 +20,7 @@ constexpr std::array<CachedProductInfo, 9> table = {{
     {CachedProduct::synthesis_plan, "choice of texture", 2},
     {CachedProduct::ground_features, "features of the ground", 2},
     {CachedProduct::river_courses, "rivers of maps", 2},
+    {CachedProduct::ground_texture, "texture of the ground", 1},
 }};
 
 // Two builds of one version may differ, so the running file is hashed. Where it cannot be read the

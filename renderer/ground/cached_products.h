@@ -25,7 +25,8 @@ enum class CachedProduct {
   example_sheet,
   synthesis_plan,
   ground_features,
-  river_courses
+  river_courses,
+  ground_texture
 };
 struct CachedProductInfo {
   CachedProduct id;

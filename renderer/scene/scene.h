@@ -71,8 +71,10 @@ struct SceneLandCover {
   std::string rules = "life_zones";  // where there is no source: built-in name or file
   std::string layers;                // a file of surface layers, instead of rules; empty: none
   std::string colours =
-      "palette";              // source of the ground's colours: "palette", "layers" or "image"
+      "palette";  // source of the ground's colours: "palette", "layers", "image" or "texture"
   std::string colour_image;   // the image from above, for "image"
+  std::string texture;        // a composite, for "texture"
+  double texture_m = 0.0;     // side of its pixels on the ground, m; 0: a cell of the DEM
   double colour_share = 1.0;  // weight of those colours against the palette's, 0…1
   double bumps = 1.0;         // factor on the height of the layers' bumps, 0…20
   bool lake_beds = true;  // with colours of layers: lakes are transparent, down to synthetic beds

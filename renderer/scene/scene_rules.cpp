@@ -77,14 +77,18 @@ class Rules {
       refuse("land_cover.colours",
              "land_cover.colours asks for the layers' colours, but no layers are given",
              "land_cover.layers = \"NAME.layers.toml\" with it");
-    if (cover.colours == "image" && cover.colour_image.empty())
-      refuse("land_cover.colours",
-             "land_cover.colours asks for an image's colours, but no image is given",
-             "land_cover.colour_image = \"NAME.tif\" with it");
-    if (cover.colours != "image" && !cover.colour_image.empty())
-      refuse("land_cover.colour_image",
-             "land_cover.colour_image is set, but land_cover.colours does not use it",
-             "land_cover.colours = \"image\" with it");
+    const auto goes_with = [&](const std::string& colours, const std::string& key,
+                               const std::string& file, const std::string& example) {
+      if (cover.colours == colours && file.empty())
+        refuse("land_cover.colours",
+               fmt::format("land_cover.colours asks for {0} colours, but no {0} is given", colours),
+               fmt::format("{} = \"{}\" with it", key, example));
+      if (cover.colours != colours && !file.empty())
+        refuse(key, key + " is set, but land_cover.colours does not use it",
+               fmt::format("land_cover.colours = \"{}\" with it", colours));
+    };
+    goes_with("image", "land_cover.colour_image", cover.colour_image, "NAME.tif");
+    goes_with("texture", "land_cover.texture", cover.texture, "NAME.composite");
     for (const auto& [name, value] : scene_.land_cover.settings)
       if (names_old_town(name))
         refuse("land_cover.settings." + name,

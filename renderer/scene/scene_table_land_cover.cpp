@@ -34,20 +34,34 @@ std::vector<SceneSection> make_land_cover_sections() {
            {.name = "colours",
             .field = AT(land_cover.colours),
             .meaning = "Source of the ground's colours. palette: the ramps of each class. layers, "
-                       "image: the colours of the surface layers, or of an image from above, in "
-                       "the palette's light and at its mean lightness. Water is unchanged.",
+                       "image, texture: the colours of the surface layers, of an image from above, "
+                       "or of a composite texture, in the palette's light and at its mean "
+                       "lightness. Water is unchanged.",
             .text = TextKind::choice,
-            .choices = {"palette", "layers", "image"}},
+            .choices = {"palette", "layers", "image", "texture"}},
            {.name = "colour_image",
             .field = AT(land_cover.colour_image),
             .meaning = "The image from above for colours = \"image\", such as a satellite image: a "
                        "georeferenced raster of red, green and blue, 8 bits each. Where it has no "
                        "data the palette's colours apply.",
             .text = TextKind::file},
+           {.name = "texture",
+            .field = AT(land_cover.texture),
+            .meaning = "The composite for colours = \"texture\", learnt by `belvedere composite "
+                       "learn` from an image from above with a mask of classes: each class is "
+                       "painted by its texture, without repetition. Classes that it lacks take the "
+                       "palette's colours.",
+            .text = TextKind::file},
+           {.name = "texture_m",
+            .field = AT(land_cover.texture_m),
+            .range = {0, 1000},
+            .unit = "m",
+            .meaning = "Side of the texture's pixels on the ground, as that of the image it was "
+                       "learnt from. 0: a cell of the DEM."},
            {.name = "colour_share",
             .field = AT(land_cover.colour_share),
             .range = {0, 1},
-            .meaning = "Weight of the colours of layers or image against the palette's."},
+            .meaning = "Weight of the colours of layers, image or texture against the palette's."},
            {.name = "bumps",
             .field = AT(land_cover.bumps),
             .range = {0, 20},

@@ -17,6 +17,7 @@
 #include "renderer/ground/laid_rivers.h"
 #include "renderer/ground/scene_ground_map.h"
 #include "renderer/paint/palette.h"
+#include "renderer/world/ground_texture.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_season.h"
 #include "renderer/world/scene_style.h"
@@ -39,6 +40,11 @@ void each_field(auto& bytes, FieldsOf<GroundRelief::Bumps> auto& bumps) {
 void each_field(auto& bytes, FieldsOf<CoverRiver> auto& centreline) {
   auto& [positions, half_width_m, painted_as, rank, kind] = centreline;
   bytes(positions, half_width_m, painted_as, rank, kind);
+}
+
+void each_field(auto& bytes, FieldsOf<Raster<GroundColour>> auto& raster) {
+  auto& [cells, transform, crs] = raster;
+  bytes(cells, transform, crs);
 }
 
 void each_field(auto& bytes, FieldsOf<LandCover> auto& cover) {
@@ -425,6 +431,44 @@ LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const Cover
   return cover;
 }
 
+// Of the polish, which takes most of the time: dabs on the ground are seen from afar.
+constexpr int ground_sweeps = 8;
+
+// The composite of a scene on its ground. Windows have none of their own: its texels are as fine
+// for the whole.
+Raster<GroundColour> make_scene_texture(const LoadedScene& loaded, const LandCover& cover,
+                                        const Dem& dem, Progress& progress, const Cache& cache) {
+  const SceneLandCover& settings = loaded.scene.land_cover;
+  const std::string file = find_scene_file(loaded, settings.texture);
+  const CompositeModel composite = read_composite(file);
+  const std::vector<LandCoverClass> classes = classes_of_labels(composite, file);
+  const RasterFrame frame{dem.transform, dem.width(), dem.height(), dem.crs};
+  GroundTextureParameters parameters;
+  parameters.texel_m = settings.texture_m > 0.0 ? settings.texture_m : dem.cell_m();
+  parameters.make.seed = loaded.scene.seed;
+  parameters.make.sweeps = ground_sweeps;
+  const auto key = [&] {
+    CacheKeyText text;
+    text.add("composite", composite_text(composite))
+        .add("texel_m", parameters.texel_m)
+        .add("seed", parameters.make.seed)
+        .add("sweeps", parameters.make.sweeps)
+        .add("classes", cover.classes.cells)
+        .add("width", frame.width)
+        .add("height", frame.height)
+        .add("crs", frame.crs);
+    for (const GeoTransform& t : {cover.classes.transform, frame.transform})
+      text.add("origin_x", t.origin_x)
+          .add("origin_y", t.origin_y)
+          .add("cell_x", t.cell_x)
+          .add("cell_y", t.cell_y);
+    return make_cache_key(CachedProduct::ground_texture, text, subject_of(loaded));
+  };
+  return cached<Raster<GroundColour>>(cache, key, progress, [&](Progress& watcher) {
+    return paint_ground_texture(composite, classes, cover, frame, parameters, watcher);
+  });
+}
+
 }  // namespace
 
 LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress,
@@ -434,9 +478,12 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
 
 PatchResult make_bare_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress,
                               const Cache& cache, Catchments* catchments) {
-  return remove_small_patches(
+  PatchResult result = remove_small_patches(
       make_full_cover(loaded, dem, {.catchments = catchments}, progress, cache),
       loaded.scene.land_cover.patches);
+  if (loaded.scene.land_cover.colours == "texture")
+    result.cover.colours = make_scene_texture(loaded, result.cover, dem, progress, cache);
+  return result;
 }
 
 PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress,

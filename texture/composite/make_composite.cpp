@@ -316,17 +316,17 @@ CompositeRecord record_composite(const CompositeModel& model, const TextureParam
 
 Grid<Rgb8> make_composite_window(const CompositeModel& model, const CompositeRecord& record,
                                  const Grid<std::uint8_t>& labels, PixelRect window,
-                                 const TextureParameters& parameters, Progress& progress) {
+                                 const TextureParameters& parameters, Progress& progress,
+                                 TexturePosition at) {
   check_texture_size(window.width(), window.height());
-  const PixelRect map{0, 0, labels.width(), labels.height()};
+  const PixelRect map = moved({0, 0, labels.width(), labels.height()}, at.x, at.y);
   if (intersection(window, map) != window)
     throw Error(ErrorKind::usage, "the window", "it extends beyond the map", "a part of the map");
   for (const std::uint8_t label : labels)
     if (label >= model.labels.size())
       throw Error(ErrorKind::bug, "make_composite_window", "a label that is not in the model");
-  const PixelRect tiles{window.x0 / endless_tile_px, window.y0 / endless_tile_px,
-                        (window.x1 - 1) / endless_tile_px + 1,
-                        (window.y1 - 1) / endless_tile_px + 1};
+  const PixelRect tiles{tile_below(window.x0), tile_below(window.y0), tile_below(window.x1 - 1) + 1,
+                        tile_below(window.y1 - 1) + 1};
   progress.begin("making a window", static_cast<double>(tiles.width()) * tiles.height());
   Grid<Rgb8> out(window.width(), window.height());
   for (int ty = tiles.y0; ty < tiles.y1; ++ty)
@@ -334,7 +334,7 @@ Grid<Rgb8> make_composite_window(const CompositeModel& model, const CompositeRec
       const PixelRect tile = {tx * endless_tile_px, ty * endless_tile_px,
                               (tx + 1) * endless_tile_px, (ty + 1) * endless_tile_px};
       const PixelRect around = intersection(grown(tile, composite_margin_px), map);
-      const Grid<std::uint8_t> own = part_of(labels, around);
+      const Grid<std::uint8_t> own = part_of(labels, moved(around, -at.x, -at.y));
       Grid<Rgb8> made = fill_labels(model, record, own, around, parameters);
       const Grid<std::uint8_t> zone = near_borders(own, remade_border_px);
       if (model.transition &&

@@ -66,12 +66,14 @@ struct CompositeRecord {
 CompositeRecord record_composite(const CompositeModel& model, const TextureParameters& parameters,
                                  Progress& progress = silent_progress());
 
-// `labels`: the whole map, one byte per pixel; `window` is inside it. Error(limit) over
-// max_texture_pixels, Error(bug) for labels that are not in the model. Progress: tiles.
+// `labels`: the whole map, one byte per pixel, or a part of an unbounded one that begins at `at`, a
+// multiple of 2^levels, and goes composite_margin_px beyond the tiles of the window, which is
+// inside it. Error(limit) over max_texture_pixels, Error(bug) for labels that are not in the model.
+// Progress: tiles.
 Grid<Rgb8> make_composite_window(const CompositeModel& model, const CompositeRecord& record,
                                  const Grid<std::uint8_t>& labels, PixelRect window,
                                  const TextureParameters& parameters,
-                                 Progress& progress = silent_progress());
+                                 Progress& progress = silent_progress(), TexturePosition at = {});
 inline constexpr int composite_margin_px = 48;  // that a tile reads around itself
 
 }  // namespace belvedere

@@ -181,9 +181,6 @@ double work_of(std::int64_t pixels, int levels) {
   return work;
 }
 
-// Rounds down to the lattice of tiles, also left of and above 0.
-int tile_below(int at) { return (at >= 0 ? at : at - endless_tile_px + 1) / endless_tile_px; }
-
 }  // namespace
 
 void check_texture_size(std::int64_t width, std::int64_t height) {

@@ -80,6 +80,10 @@ TextureRecord record_texture(const CliqueModel& model, const TextureParameters& 
 Grid<Rgb8> make_window(const CliqueModel& model, const TextureRecord& record, PixelRect window,
                        const TextureParameters& parameters, Progress& progress = silent_progress());
 inline constexpr int endless_tile_px = 512;
+// The tile of a pixel along one axis, also left of and above 0.
+inline int tile_below(int at) {
+  return (at >= 0 ? at : at - endless_tile_px + 1) / endless_tile_px;
+}
 inline constexpr int endless_margin_px = 96;
 // A piece of such a texture in one go, from tables alone; pixels closer to its border than
 // endless_margin_px are not yet right. Its left and upper side are moved to multiples of 2^levels,

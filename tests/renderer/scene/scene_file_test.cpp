@@ -127,6 +127,8 @@ TEST(SceneFile, WrongTypesSayWhatIsAllowed) {
   EXPECT_THAT(refused("[land_cover]\ncolours = \"image\"\n"),
               HasSubstr("land_cover.colour_image = "));
   EXPECT_THAT(refused("[land_cover]\ncolour_image = \"a.tif\"\n"), HasSubstr("does not use it"));
+  EXPECT_THAT(refused("[land_cover]\ncolours = \"texture\"\n"), HasSubstr("land_cover.texture = "));
+  EXPECT_THAT(refused("[land_cover]\ntexture = \"a.composite\"\n"), HasSubstr("does not use it"));
   EXPECT_THAT(refused("[camera]\nprojection = \"perspectiv\"\n"),
               HasSubstr("did you mean \"perspective\""));
   EXPECT_THAT(refused("palette = \"sumer\"\n"),
