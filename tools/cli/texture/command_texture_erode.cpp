@@ -2,25 +2,33 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/masks/erosion.h"
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/png_palette.h"
+#include "texture/statistical/cracks.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
+#include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
 #include "tools/report/report.h"
+#include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
 namespace {
 
 struct TextureErodeOptions : RunOptions {
   std::string mask, out, report;
+  std::string over;      // a picture that cracks are laid over: the mask is a crop of them
+  double darkest = 0.1;  // share of that crop
   ErosionParameters erosion{.levels = 8};
   int label = -1;
   std::vector<int> keep;
@@ -72,7 +80,65 @@ void write_report(const TextureErodeOptions& options, const Grid<std::uint8_t>& 
                     file_name(options.out))});
 }
 
+constexpr int crack_types = 24;  // grey has few
+
+// A picture that weathers: cracks learnt from a crop, laid over it.
+int run_over(const TextureErodeOptions& options) {
+  TerminalProgress progress(options.quiet);
+  const TextureCrop crop = read_crop(options.mask, "");
+  const Grid<Rgb8> intact = read_crop(options.over, "").picture;
+  const CrackModel cracks =
+      learn_cracks(crop.picture, crop.states, options.darkest, {.types = crack_types}, progress);
+  const int steps = options.erosion.levels;
+  const std::vector<Grid<Rgb8>> series =
+      lay_cracks(intact, cracks, steps, options.erosion.seed, progress);
+  ReportTable table({{"file", "file"}, {"changed", "pixels changed"}});
+  Json told = Json::array();
+  std::string lines;
+  for (int step = 1; step <= steps; ++step) {
+    const Grid<Rgb8>& laid = series[static_cast<std::size_t>(step - 1)];
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < laid.size(); ++i) changed += laid[i] != intact[i] ? 1 : 0;
+    const std::string name =
+        fmt::format("{}_{:02}.png", std::filesystem::path(options.over).stem().string(), step);
+    write_texture((std::filesystem::path(options.out) / name).string(), laid,
+                  fmt::format("{} with cracks of {} seed {}", file_name(options.over),
+                              file_name(options.mask), options.erosion.seed));
+    lines += fmt::format("  {}  {} of {} pixels changed\n", name, changed, laid.size());
+    table.row(name, changed);
+    told.add(Json::object()
+                 .add("file", Json::text(name))
+                 .add("changed", Json::number(static_cast<double>(changed))));
+  }
+  if (!options.report.empty()) {
+    Report report(options.report);
+    report.section("pictures", "Pictures",
+                   "The crop whose cracks are learnt, the intact picture, and the two together.");
+    report.picture("crop", to_picture(crop.picture), "crop");
+    report.picture("intact", to_picture(intact), "intact");
+    report.picture("weathered", to_picture(series.back()), "last step");
+    report.section("figures", "Figures");
+    report.table(table);
+    report.write(
+        {.title = "Weathered picture: " + file_name(options.over),
+         .lead = fmt::format("{} steps.", steps),
+         .command = fmt::format("belvedere texture erode {} --over {} --darkest {} "
+                                "--steps {} --seed {} --out {}",
+                                file_name(options.mask), file_name(options.over), options.darkest,
+                                steps, options.erosion.seed, file_name(options.out))});
+  }
+  progress.end();
+  print_result(options,
+               Json::object()
+                   .add("out", Json::text(options.out))
+                   .add("share", Json::number(cracks.share))
+                   .add("steps", std::move(told)),
+               options.out + "\n" + lines);
+  return 0;
+}
+
 int run(const TextureErodeOptions& options) {
+  if (!options.over.empty()) return run_over(options);
   TerminalProgress progress(options.quiet);
   const Grid<std::uint8_t> labels = read_labels(options);
   const auto label = static_cast<std::uint8_t>(options.label >= 0 ? options.label : 255);
@@ -143,6 +209,19 @@ Action add_texture_erode(CommandOptions& command) {
                   "leaves takes the number that reached it first")
       .range(0, 255)
       .type_name("NUMBER");
+  command
+      .add_option("--over", options->over,
+                  "Instead: MASK is a crop of a weathered texture; its cracks are learnt and laid "
+                  "over this picture, step by step more\n"
+                  "of them: PICTURE_01.png, PICTURE_02.png …")
+      .type_name("PICTURE")
+      .files(FileUse::input);
+  command
+      .add_option(
+          "--darkest", options->darkest,
+          "With --over: share of the crop that are cracks, its darkest pixels. Default: 0.1")
+      .range(0.01, 0.5)
+      .type_name("SHARE");
   command.add_option("--keep", options->keep, "Numbers that do not advance, such as water")
       .range(0, 255)
       .type_name("NUMBER");
@@ -158,7 +237,8 @@ Action add_texture_erode(CommandOptions& command) {
       "land_cover.erode.\n"
       "\n"
       "  belvedere texture erode snow.png --steps 5 --step-px 12 --out spring\n"
-      "  belvedere texture erode classes.png --label 4 --keep 1 --out clearing");
+      "  belvedere texture erode classes.png --label 4 --keep 1 --out clearing\n"
+      "  belvedere texture erode old_wall.jpg --over new_wall.png --steps 3 --out ages");
   return [options] { return run(*options); };
 }
 

@@ -79,5 +79,33 @@ TEST_F(TextureErode, BadInputIsNamed) {
             2);
 }
 
+// Dark cracks of a crop over another picture: nothing there becomes lighter, each step goes on from
+// the one before.
+TEST_F(TextureErode, LaysTheCracksOfACropOverAPicture) {
+  const auto shade = [](int x, int y) {
+    return .5F + .02F * static_cast<float>((x * 7 + y * 3) % 9);
+  };
+  const std::string wall = write_picture("wall.png", 72, 64, [&](int x, int y) {
+    return (x + y / 3) % 18 < 3 ? glm::vec3(.05F) : glm::vec3(shade(x, y));
+  });
+  const std::string intact =
+      write_picture("new.png", 60, 50, [&](int x, int y) { return glm::vec3(shade(y, x) + .2F); });
+  ASSERT_THAT(run({"texture", "erode", wall, "--over", intact, "--darkest", "0.16", "--steps", "2",
+                   "--out", path("ages"), "--report", path("page"), "-q", "--json"}),
+              Prints(AllOf(HasSubstr("new_01.png"), HasSubstr("new_02.png"))));
+  EXPECT_THAT(read_bytes(path("page/index.html")), HasSubstr("weathered.png"));
+  Grid<glm::vec3> before = read_picture(intact);
+  for (const char* name : {"ages/new_01.png", "ages/new_02.png"}) {
+    const Grid<glm::vec3> now = read_picture(path(name));
+    int darker = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      ASSERT_LE(now[i].x, before[i].x);
+      darker += now[i].x < before[i].x - .2F ? 1 : 0;
+    }
+    EXPECT_GT(darker, 60) << name;
+    before = now;
+  }
+}
+
 }  // namespace
 }  // namespace belvedere
