@@ -13,12 +13,12 @@
 namespace belvedere {
 namespace {
 
-constexpr double rim_px = 1.0;       // sigma of a crack's edge
-constexpr int rim_left_out_px = 2;   // around cracks, where the intact texture is not learnt
-constexpr float softness = 24.F;     // levels of depth over which a crack begins
-constexpr float least_depth = 24.F;  // less is the noise of intact ground
+constexpr double rim_px = 1.0;      // sigma of a crack's edge
+constexpr int rim_left_out_px = 2;  // around cracks, where the intact texture is not learnt
+constexpr float softness = 24.F;    // levels of depth over which a crack begins
+constexpr float min_depth = 24.F;   // less is the noise of intact ground
 
-float lightness(const Rgb8& c) { return static_cast<float>(2 * c[0] + 5 * c[1] + c[2]) / 8.F; }
+float luma_of(const Rgb8& c) { return static_cast<float>(2 * c[0] + 5 * c[1] + c[2]) / 8.F; }
 
 }  // namespace
 
@@ -29,7 +29,7 @@ CrackModel learn_cracks(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states
   };
   std::vector<float> sorted;
   for (std::size_t i = 0; i < crop.size(); ++i)
-    if (counts(i)) sorted.push_back(lightness(crop[i]));
+    if (counts(i)) sorted.push_back(luma_of(crop[i]));
   const std::size_t all = sorted.size();
   const float dark = all == 0 ? 0.F : value_at_share(std::move(sorted), darkest);
   CrackModel out;
@@ -38,7 +38,7 @@ CrackModel learn_cracks(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states
   std::array<std::size_t, 3> sum{};
   std::size_t count = 0;
   for (std::size_t i = 0; i < crop.size(); ++i) {
-    if (!counts(i) || lightness(crop[i]) > dark) continue;
+    if (!counts(i) || luma_of(crop[i]) > dark) continue;
     cracked[i] = 1;
     depth[i] = 255.F;
     for (std::size_t c = 0; c < 3; ++c) sum[c] += crop[i][c];
@@ -65,13 +65,13 @@ std::vector<Grid<Rgb8>> lay_cracks(const Grid<Rgb8>& picture, const CrackModel& 
   const Grid<Rgb8> made =
       make_texture(cracks.depth, picture.width(), picture.height(), parameters, progress);
   Grid<float> depth(made.width(), made.height());
-  for (std::size_t i = 0; i < made.size(); ++i) depth[i] = lightness(made[i]);
+  for (std::size_t i = 0; i < made.size(); ++i) depth[i] = luma_of(made[i]);
   depth = gaussian_blur(depth, 0.5 * rim_px);  // levels are whole numbers: without ties
   std::vector<Grid<Rgb8>> out;
   for (int step = 1; step <= steps; ++step) {
     const float from =
-        std::max(least_depth, value_at_share(std::vector<float>(depth.begin(), depth.end()),
-                                             1.0 - cracks.share * step / steps));
+        std::max(min_depth, value_at_share(std::vector<float>(depth.begin(), depth.end()),
+                                           1.0 - cracks.share * step / steps));
     Grid<Rgb8>& laid = out.emplace_back(picture);
     for (std::size_t i = 0; i < laid.size(); ++i) {
       const float cover = std::clamp((depth[i] - from) / softness + .5F, 0.F, 1.F);

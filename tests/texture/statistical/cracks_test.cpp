@@ -27,12 +27,12 @@ double cracked_meadow(Grid<Rgb8>& crop) {
   return cracked / static_cast<double>(crop.size());
 }
 
-const LearnParameters few{.types = 20, .levels = 2, .rounds = 6};
+const LearnParameters few_types{.types = 20, .levels = 2, .rounds = 6};
 
 TEST(Cracks, AreTheDarkestPixelsAndNotPartOfTheIntactTexture) {
   Grid<Rgb8> crop;
   const double share = cracked_meadow(crop);
-  const CrackModel cracks = learn_cracks(crop, {}, share, few);
+  const CrackModel cracks = learn_cracks(crop, {}, share, few_types);
   EXPECT_NEAR(cracks.share, share, .005);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(cracks.colour[c], black[c], 2) << c;
   int intact = 0;
@@ -49,7 +49,7 @@ TEST(Cracks, AreTheDarkestPixelsAndNotPartOfTheIntactTexture) {
 TEST(Cracks, GrowOverAPictureStepByStep) {
   Grid<Rgb8> crop;
   const double share = cracked_meadow(crop);
-  const CrackModel cracks = learn_cracks(crop, {}, share, few);
+  const CrackModel cracks = learn_cracks(crop, {}, share, few_types);
   const Grid<Rgb8> white(150, 140, Rgb8{250, 250, 250});
   const std::vector<Grid<Rgb8>> series = lay_cracks(white, cracks, 3, 5);
   ASSERT_EQ(series.size(), 3U);
