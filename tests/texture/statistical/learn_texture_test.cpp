@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <set>
+#include <vector>
 
 #include "base/error.h"
 #include "tests/files.h"
@@ -92,6 +95,112 @@ TEST(LearnTexture, ComesCloserAndStopsAtTheThreshold) {
   EXPECT_GT(enough, 12U);
   EXPECT_LE(enough, 16U);
   EXPECT_LT(at_end, between);
+}
+
+// The Euclidean distance of a type's histograms in two pictures, from single pixels: 32 even groups
+// between the first one's .5 % and 99.5 %, and two outside.
+double plain_distance(const BandPicture& example, const BandPicture& made, const BandSpace& bands,
+                      const CliqueType& type) {
+  const DifferenceRange range = difference_range(bands, type);
+  const auto bins_of = [&](const BandPicture& picture) {
+    std::vector<int> bins;
+    for (int y = 0; y + type.dy < picture.height(); ++y)
+      for (int x = 0; x < picture.width(); ++x) {
+        const int hx = x + type.dx;
+        if (hx < 0 || hx >= picture.width()) continue;
+        const float head = picture.band(type.head)(hx, y + type.dy);
+        const float value = type.single() ? head : head - picture.band(type.tail)(x, y);
+        bins.push_back(std::clamp(
+            static_cast<int>((value - range.low) * (1024.F / (range.high - range.low))), 0, 1023));
+      }
+    std::sort(bins.begin(), bins.end());
+    return bins;
+  };
+  const std::vector<int> wanted = bins_of(example);
+  const std::vector<int> found = bins_of(made);
+  // The bins of the first and last pixels that are not in the tails.
+  const std::size_t tail = wanted.size() / 200;
+  const int from = wanted[tail] > 0 ? wanted[tail] - 1 : 0;
+  const int to = std::max(wanted[wanted.size() - tail - 1], from + 4);
+  std::array<double, 34> off{};
+  const auto count = [&](const std::vector<int>& bins, double sign) {
+    for (const int bin : bins) {
+      const int group = bin < from ? 0 : bin >= to ? 33 : 1 + (bin - from) * 32 / (to - from);
+      off[static_cast<std::size_t>(group)] += sign / static_cast<double>(bins.size());
+    }
+  };
+  count(found, 1.0);
+  count(wanted, -1.0);
+  double sum = 0.0;
+  for (const double o : off) sum += o * o;
+  return std::sqrt(sum);
+}
+
+// Steps 4 and 5 of the paper by brute force: all pairs up to the reach, counted pixel by pixel in
+// the texture made so far. What learning adds is the farthest.
+TEST(LearnTexture, AddsTheFarthestOfAllPairsByBruteForce) {
+  constexpr int reach = 4;
+  constexpr std::size_t first = 12;  // always in
+  LearnParameters parameters;
+  parameters.levels = 0;
+  parameters.types = first + 3;
+  parameters.reach_px = reach;
+  parameters.enough = 0.0;
+  const Grid<Rgb8> crop = test::striped_crop(64, 56, 10);
+  const CliqueModel learned = learn_texture(crop, {}, parameters).model;
+  ASSERT_EQ(learned.cliques.size(), first + 3);
+  const BandPicture example = to_bands(crop, learned.bands, {});
+  CliqueModel now = learned;
+  now.cliques.resize(first);
+  TextureTrial trial(now, crop.width(), crop.height(), 5);
+  trial.begin_level(now, 0);
+  for (std::size_t added = first; added < learned.cliques.size(); ++added) {
+    trial.run(now, 0, added == first ? 2 * parameters.rounds : parameters.rounds);
+    const auto distance = [&](const CliqueType& type) {
+      return plain_distance(example, trial.picture(0), now.bands, type);
+    };
+    double farthest = 0.0;
+    int candidates = 0;
+    for (int dy = 0; dy <= reach; ++dy)
+      for (int dx = -reach; dx <= reach; ++dx) {
+        if (dx * dx + dy * dy > reach * reach || (dy == 0 && dx < 0)) continue;
+        for (int head = 0; head < 3; ++head)
+          for (int tail = 0; tail < 3; ++tail) {
+            const CliqueType type{0, dx, dy, head, tail};
+            if ((dx == 0 && dy == 0 && head > tail) ||
+                std::any_of(now.cliques.begin(), now.cliques.end(),
+                            [&](const Clique& c) { return c.type == type; }))
+              continue;
+            farthest = std::max(farthest, distance(type));
+            ++candidates;
+          }
+      }
+    EXPECT_EQ(candidates, 6 + 9 * 24 - static_cast<int>(added));
+    EXPECT_NEAR(distance(learned.cliques[added].type), farthest, 1e-4) << added;
+    EXPECT_GT(farthest, .02);
+    now.cliques.push_back(learned.cliques[added]);
+  }
+}
+
+// What is left of the farthest pair falls with the number of types.
+TEST(LearnTexture, MoreTypesLeaveLess) {
+  Grid<Rgb8> crop = test::meadow_crop(80, 64);
+  const Grid<Rgb8> stripes = test::striped_crop(80, 64, 12);
+  for (std::size_t i = 0; i < crop.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      crop[i][c] = test::level(crop[i][c] + .3 * (stripes[i][c] - 130));
+  const auto residual = [&](int types) {
+    const LearnedTexture learned =
+        learn_texture(crop, {}, {.types = types, .levels = 2, .rounds = 8});
+    EXPECT_LE(learned.model.cliques.size(), static_cast<std::size_t>(types) + 1);
+    return learned.levels.back().worst_l2;
+  };
+  const double at_16 = residual(16);
+  const double at_28 = residual(28);
+  const double at_40 = residual(40);
+  EXPECT_GT(at_16, at_28);
+  EXPECT_GT(at_28, at_40);
+  EXPECT_LT(at_40, .5 * at_16);
 }
 
 // Two colours never mix where a mask excludes one of them.
