@@ -1,11 +1,14 @@
 #include "texture/composite/make_label_map.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "base/math_exact.h"
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "texture/statistical/make_texture.h"
@@ -269,11 +272,18 @@ Grid<std::uint8_t> make_label_map(const LabelMapModel& model, int width, int hei
                                   const LabelMapParameters& parameters, Progress& progress) {
   constexpr std::array<int, label_scales> sweeps = {40, 60, 80, 160,
                                                     300};  // of each scale, the finest first
-  check_texture_size(width, height);
+  int finest = 0;
+  const auto pixels_at = [&](int scale) {
+    return (std::int64_t{width} >> scale) * (std::int64_t{height} >> scale);
+  };
+  while (finest < label_scales - 1 && pixels_at(finest) > parameters.finest_pixels) ++finest;
+  check_texture_size(width >> finest, height >> finest);
+  check_memory(fmt::format("a map of {} × {} labels", width, height),
+               2.0 * static_cast<double>(width) * height);
   const LabelMapModel wanted = at_size(model, width, height);
   Grid<std::uint8_t> map;
   progress.begin("making a label map", static_cast<double>(width) * height * 4.0 / 3.0);
-  for (int scale = label_scales - 1; scale >= 0; --scale) {
+  for (int scale = label_scales - 1; scale >= finest; --scale) {
     const int step = 1 << scale;
     const int w = (width + step - 1) / step;
     const int h = (height + step - 1) / step;
@@ -305,7 +315,11 @@ Grid<std::uint8_t> make_label_map(const LabelMapModel& model, int width, int hei
     }
     progress.advance(static_cast<double>(w) * h);
   }
-  return map;
+  if (finest == 0) return map;
+  Grid<std::uint8_t> whole(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) whole(x, y) = map(x >> finest, y >> finest);
+  return whole;
 }
 
 }  // namespace belvedere

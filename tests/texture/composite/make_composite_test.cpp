@@ -7,7 +7,9 @@
 
 #include "base/error.h"
 #include "base/grid.h"
+#include "base/memory/sanitized.h"
 #include "base/parallel.h"
+#include "tests/counted_memory.h"
 #include "tests/files.h"
 #include "tests/grids.h"
 #include "tests/texture/composite/composite_crops.h"
@@ -187,6 +189,58 @@ TEST(CompositeWindow, AnyWindowIsAPartOfTheWhole) {
   double around = 0.0;
   for (const int x : {504, 506, 508, 510, 514, 516, 518, 520}) around += step(x) / 8.0;
   EXPECT_LT(step(512), 1.25 * around);
+}
+
+// A part of an unbounded map, left of and above its origin, is made as it is in a larger part.
+TEST(CompositeWindow, KnowsWhereItsMapLies) {
+  const TextureParameters twice{.rounds = 2, .sweeps = 0};
+  const CompositeRecord tables = record_composite(two_textures_model(), twice);
+  constexpr int margin = composite_margin_px;
+  constexpr int side = endless_tile_px + 2 * margin;
+  // Labels of a position on the lattice.
+  const auto map_at = [](TexturePosition at, int width) {
+    return test::grid_of<std::uint8_t>(width, side, [&](int x, int y) {
+      const int u = x + at.x + 300;
+      const int v = y + at.y + 260;
+      return u * u + v * v < 1600 ? 1 : 0;
+    });
+  };
+  const TexturePosition small{-endless_tile_px - margin, -endless_tile_px - margin};
+  const TexturePosition large{small.x - 160, small.y};
+  const PixelRect window{-350, -300, -250, -200};
+  const Grid<Rgb8> one = make_composite_window(two_textures_model(), tables, map_at(small, side),
+                                               window, twice, silent_progress(), small);
+  EXPECT_EQ(make_composite_window(two_textures_model(), tables, map_at(large, side + 160), window,
+                                  twice, silent_progress(), large),
+            one);
+  int green = 0;
+  int inside = 0;
+  for (const auto [x, y] : test::cells(100, 100)) {
+    const bool disc = (x - 50) * (x - 50) + (y - 40) * (y - 40) < 1200;
+    inside += disc && is_green(one(x, y)) ? 1 : 0;
+    green += is_green(one(x, y)) ? 1 : 0;
+  }
+  EXPECT_LT(inside, 600) << "of 3800 pixels of the disc";
+  EXPECT_GT(green, 3500) << "of 5000 around it";
+}
+
+// A strip of a map of any height takes the memory of its tiles.
+TEST(CompositeWindow, TakesNoMoreMemoryOfALargerMap) {
+#ifdef BELVEDERE_SANITIZED
+  GTEST_SKIP() << "sanitizers have memory of their own";
+#endif
+  const TextureParameters once{.rounds = 1, .sweeps = 0};
+  const CompositeRecord tables = record_composite(two_textures_model(), once);
+  const auto peak = [&](int height) {
+    const ThreadLimit one(1);
+    const Grid<std::uint8_t> labels = discs(64, height);
+    const test::CountedMemory memory;
+    make_composite_window(two_textures_model(), tables, labels, {0, 0, 64, 100}, once);
+    return static_cast<double>(memory.peak_bytes());
+  };
+  peak(600);
+  const double small = peak(600);
+  EXPECT_NEAR(peak(60000), small, .01 * small);
 }
 
 TEST(CompositeWindow, RefusesWhatIsBeyondTheMap) {

@@ -95,5 +95,19 @@ TEST(MakeLabelMap, SmallAndLargeSizesAreLimited) {
   EXPECT_THROW(make_label_map(model, 1 << 14, 1 << 14, {}), Error);
 }
 
+// Maps over the limit are sampled on every second, fourth … pixel, at the scale of the model.
+TEST(MakeLabelMap, LargeMapsHaveCoarserBordersAndTheSameScale) {
+  const LabelMapModel model = learn_label_map(patches(160, 8), 3);
+  const Grid<std::uint8_t> map =
+      make_label_map(model, 201, 200, {.effort = .6, .finest_pixels = 201 * 200 / 3});
+  ASSERT_EQ(map.width(), 201);
+  ASSERT_EQ(map.height(), 200);
+  for (const auto [x, y] : test::cells(201, 200)) ASSERT_EQ(map(x, y), map(x & ~1, y & ~1));
+  const LabelMapFigures figures = label_map_figures(model, map);
+  const auto wanted = border_shares(model);
+  for (std::size_t s = 1; s < label_scales; ++s)
+    EXPECT_NEAR(figures.borders[s] / wanted[s], 1.0, .25) << s;
+}
+
 }  // namespace
 }  // namespace belvedere

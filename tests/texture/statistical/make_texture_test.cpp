@@ -2,15 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "base/cache/content_hash.h"
 #include "base/error.h"
 #include "base/grid.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "tests/files.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/learn_texture.h"
@@ -90,6 +94,33 @@ TEST(MakeWindow, NeverRepeats) {
         ++count;
       }
   EXPECT_EQ(pieces.size(), count);
+}
+
+// Every piece of 6 × 6 pixels of 64 tiles, at all positions.
+TEST(MakeWindowLong, NothingRepeatsOver4096Squared) {
+  const TextureParameters parameters{.rounds = 6, .sweeps = 2};
+  const TextureRecord record = record_texture(meadow_model(), parameters);
+  constexpr int side = 4096;
+  constexpr int piece = 6;
+  const Grid<Rgb8> all =
+      make_window(meadow_model(), record, {-side / 2, 0, side / 2, side}, parameters);
+  std::vector<std::uint64_t> pieces(static_cast<std::size_t>(side - piece + 1) *
+                                    static_cast<std::size_t>(side - piece + 1));
+  parallel_rows(side - piece + 1, [&](int y) {
+    for (int x = 0; x + piece <= side; ++x) {
+      std::uint64_t hash = 0;
+      for (int j = 0; j < piece; ++j)
+        for (int i = 0; i < piece; ++i) {
+          const Rgb8& c = all(x + i, y + j);
+          hash = mix_bits(hash ^ (std::uint64_t{c[0]} | std::uint64_t{c[1]} << 8 |
+                                  std::uint64_t{c[2]} << 16 | std::uint64_t{1} << 40));
+        }
+      pieces[static_cast<std::size_t>(y) * static_cast<std::size_t>(side - piece + 1) +
+             static_cast<std::size_t>(x)] = hash;
+    }
+  });
+  std::sort(pieces.begin(), pieces.end());
+  EXPECT_EQ(std::adjacent_find(pieces.begin(), pieces.end()), pieces.end());
 }
 
 // Two tiles in windows of two shapes and orders, on different threads, put together: one hash. The

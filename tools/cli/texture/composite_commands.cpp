@@ -304,6 +304,7 @@ struct CompositeMakeOptions : RunOptions {
   std::string model, labels, map, out, report;
   std::vector<int> size;
   std::vector<int> window;
+  bool strips = false;
   std::uint64_t seed = 1;
 };
 
@@ -347,6 +348,8 @@ void write_make_report(const CompositeMakeOptions& options, const std::vector<st
                                        asked, options.seed, file_name(options.out))});
 }
 
+constexpr int max_shown_px = 4096;  // in the report, of a picture in strips
+
 int run_make(const CompositeMakeOptions& options) {
   if (options.size.empty() == options.labels.empty())
     throw Error(ErrorKind::usage, "command line",
@@ -367,24 +370,41 @@ int run_make(const CompositeMakeOptions& options) {
       options.labels.empty() ? make_label_map(model.map, options.size[0], options.size[1],
                                               {.seed = options.seed}, progress)
                              : read_drawn_labels(options.labels, names, progress);
-  const bool whole = options.window.empty();
-  const PixelRect window = whole ? PixelRect{} : window_of(options.window, labels);
-  const Grid<Rgb8> made =
-      whole ? make_composite(model, labels, parameters, progress)
-            : make_composite_window(model, record_composite(model, parameters, progress), labels,
-                                    window, parameters, progress);
-  write_texture(options.out, made,
-                fmt::format("{} seed {}", file_name(options.model), options.seed));
+  const PixelRect all{0, 0, labels.width(), labels.height()};
+  const PixelRect window = options.window.empty() ? all : window_of(options.window, labels);
+  const bool strips =
+      options.strips ||
+      (options.window.empty() && std::int64_t{all.width()} * all.height() > max_texture_pixels);
+  const std::string note = fmt::format("{} seed {}", file_name(options.model), options.seed);
+  Grid<Rgb8> made;  // in strips: the first one, as far as the report shows it
+  if (strips) {
+    const CompositeRecord record = record_composite(model, parameters, progress);
+    write_texture_strips(options.out, window.width(), window.height(), note, [&](PixelRect strip) {
+      Grid<Rgb8> rows = make_composite_window(
+          model, record, labels, moved(strip, window.x0, window.y0), parameters, progress);
+      if (made.empty())
+        made = part_of(rows, {0, 0, std::min(rows.width(), max_shown_px), rows.height()});
+      return rows;
+    });
+  } else {
+    made = options.window.empty()
+               ? make_composite(model, labels, parameters, progress)
+               : make_composite_window(model, record_composite(model, parameters, progress), labels,
+                                       window, parameters, progress);
+    write_texture(options.out, made, note);
+  }
   if (!options.map.empty()) write_label_picture(options.map, labels, names);
   if (!options.report.empty())
-    write_make_report(options, names, whole ? labels : part_of(labels, window), made);
+    write_make_report(
+        options, names,
+        part_of(labels, moved({0, 0, made.width(), made.height()}, window.x0, window.y0)), made);
   progress.end();
   print_result(options,
                Json::object()
                    .add("out", Json::text(options.out))
-                   .add("width", Json::number(made.width()))
-                   .add("height", Json::number(made.height())),
-               fmt::format("{}: {}×{} pixels\n", options.out, made.width(), made.height()));
+                   .add("width", Json::number(window.width()))
+                   .add("height", Json::number(window.height())),
+               fmt::format("{}: {}×{} pixels\n", options.out, window.width(), window.height()));
   return 0;
 }
 
@@ -419,6 +439,9 @@ Action add_composite_make(CommandOptions& command) {
                   "without --window")
       .list(',', 4)
       .type_name("X,Y,W,H");
+  command.add_flag("--strips", options->strips,
+                   "Makes the picture as windows do and writes it in strips of 512 rows, in little "
+                   "memory. Default: over 64 Mpixels");
   command
       .add_option("--map", options->map,
                   "Also writes the labels in their colours, to be edited and passed to --labels")

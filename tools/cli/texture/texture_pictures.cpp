@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdlib>
+#include <memory>
 #include <utility>
 
 #include "base/error.h"
@@ -15,8 +16,11 @@
 #include "base/text/text_encoding.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
+#include "renderer/image/picture_formats.h"
+#include "renderer/image/rows/picture_rows.h"
 #include "texture/statistical/band_pyramid.h"
 #include "texture/statistical/clique_model.h"
+#include "texture/statistical/make_texture.h"
 #include "tools/cli/commands.h"
 #include "tools/options/options.h"
 #include "tools/report/report_pictures.h"
@@ -89,14 +93,30 @@ void write_texture(const std::string& path, const Grid<Rgb8>& picture, const std
   write_encoded_texture(path, to_picture(picture), note);
 }
 
-void write_encoded_texture(const std::string& path, const Grid<glm::vec3>& picture,
-                           const std::string& note) {
+namespace {
+
+std::unique_ptr<PictureRows> open_texture(const std::string& path, int width, int height,
+                                          const std::string& note) {
   PictureFileOptions options;
   options.notes["belvedere:texture"] = note;
-  if (lower_extension(path) == ".png")
-    write_png8(path, picture, options);
-  else
-    write_tiff16(path, picture, options);
+  const char* format = lower_extension(path) == ".png" ? "png" : "tif";
+  return written_format(format).open(path, width, height, options);
+}
+
+}  // namespace
+
+void write_encoded_texture(const std::string& path, const Grid<glm::vec3>& picture,
+                           const std::string& note) {
+  write_whole(*open_texture(path, picture.width(), picture.height(), note), picture);
+}
+
+void write_texture_strips(const std::string& path, int width, int height, const std::string& note,
+                          const std::function<Grid<Rgb8>(PixelRect strip)>& make) {
+  const std::unique_ptr<PictureRows> file = open_texture(path, width, height, note);
+  for (int y = 0; y < height; y += endless_tile_px)
+    file->write_rows(to_picture(make({0, y, width, std::min(height, y + endless_tile_px)})));
+  file->finish();
+  file->commit();
 }
 
 Json with_figures(Json object, const TextureFigures& figures) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
 #include "base/grid.h"
+#include "base/pixel_rect.h"
 #include "base/progress.h"
 #include "base/text/json.h"
 #include "texture/statistical/clique_model.h"
@@ -44,6 +46,10 @@ void write_texture(const std::string& path, const Grid<Rgb8>& picture, const std
 // The same for encoded sRGB, 0…1.
 void write_encoded_texture(const std::string& path, const Grid<glm::vec3>& picture,
                            const std::string& note);
+// The same for a picture that is made in strips of endless_tile_px rows, with the memory of one.
+// `make` gets the strip.
+void write_texture_strips(const std::string& path, int width, int height, const std::string& note,
+                          const std::function<Grid<Rgb8>(PixelRect strip)>& make);
 // Throws what write_texture would for the name, before any work.
 void check_texture_name(const std::string& path);
 

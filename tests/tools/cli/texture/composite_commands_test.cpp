@@ -61,6 +61,8 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
   // Windows are parts of the window of the whole.
   const Grid<glm::vec3> all =
       make("all.png", {"--labels", path("map.png"), "--window", "0", "0", "90", "70"});
+  EXPECT_EQ(all, make("strips.png", {"--labels", path("map.png"), "--strips"}))
+      << "a large picture is the same window, strip by strip";
   const Grid<glm::vec3> part =
       make("part.png", {"--labels", path("map.png"), "--window", "20,30,40,25", "--threads", "2",
                         "--report", path("window")});
