@@ -131,6 +131,49 @@ TEST(CloseViews, TuftsStandUpAndAreDrawnBeforeWhatLiesBehind) {
   EXPECT_EQ(up, static_cast<double>(tufts.size()));
 }
 
+// Trees, shrubs, tufts and stones are strokes, not instances of objects, and hold at 300 %: a sheet
+// of three times the pixels has the same strokes, and ground three times nearer as dense ones, of
+// which as many stand.
+TEST(CloseViews, StrokesStayDenseAndUprightAtThreeHundredPercent) {
+  struct Figures {
+    double density = 0.0;  // strokes per square unit of the sheet
+    double upright = 0.0;  // share of them
+  };
+  const auto look_at = [](std::string_view kind, LandCoverClass id, int px, double unit_m) {
+    Picture p = ground_of(id, 36.0, px, unit_m);
+    Figures out;
+    double count = 0.0;
+    constexpr int seeds = 3;
+    for (p.parameters.seed = 1; p.parameters.seed <= seeds; ++p.parameters.seed)
+      for (const Stroke& stroke : grow_strokes(kind, p.scene())) {
+        count += 1.0;
+        out.upright += stroke.gate == StrokeGate::upright ? 1.0 : 0.0;
+      }
+    out.upright /= std::max(count, 1.0);
+    out.density = count / (seeds * (36.0 / unit_m) * (36.0 / unit_m));
+    return out;
+  };
+  struct Case {
+    std::string_view kind;
+    LandCoverClass id;
+    double min_density;
+    double min_upright;
+  };
+  for (const Case& c : {Case{"forest trees", forest, .1, .5}, Case{"low bushes", shrub, .045, 1.0},
+                        Case{"tufts", pasture, .01, 1.0}, Case{"stones", scree, .025, 1.0}}) {
+    SCOPED_TRACE(c.kind);
+    const Figures whole = look_at(c.kind, c.id, 240, .45);
+    const Figures enlarged = look_at(c.kind, c.id, 720, .45);
+    const Figures nearer = look_at(c.kind, c.id, 720, .15);
+    EXPECT_NEAR(enlarged.density, whole.density, .1 * whole.density);
+    EXPECT_NEAR(enlarged.upright, whole.upright, .02);
+    EXPECT_GT(nearer.density, c.min_density);
+    EXPECT_GT(nearer.density, .7 * whole.density);
+    EXPECT_GE(nearer.upright, c.min_upright);
+    EXPECT_NEAR(nearer.upright, whole.upright, .1);
+  }
+}
+
 TEST(CloseViews, AWindowIsPaintedAsTheWhole) {
   const Picture p = ground_of(alpine_grass, 150.0, 300, 0.4);
   const StrokeLayers layers{
