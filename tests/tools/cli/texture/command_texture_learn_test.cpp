@@ -155,7 +155,7 @@ TEST_F(Texture, RemovesWhatIsMarkedAndTouchesNothingElse) {
   const std::string mask =
       write_labels("mask.tif", 110, 100, [&](int x, int y) { return marked(x, y) ? 1 : 0; });
   ASSERT_THAT(run({"texture", "remove", picture, "--mask", mask, "--out", path("out.png"),
-                   "--report", path("page"), "-q"}),
+                   "--report", path("page")}),
               Prints(HasSubstr("of 11000 pixels filled")));
   EXPECT_THAT(read_bytes(path("page/index.html")),
               AllOf(HasSubstr("texture remove p.png --mask mask.tif"), HasSubstr("after.png")));
