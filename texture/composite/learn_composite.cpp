@@ -19,16 +19,6 @@
 namespace belvedere {
 namespace {
 
-PixelRect box_of(const Grid<std::uint8_t>& states) {
-  PixelRect box{states.width(), states.height(), 0, 0};
-  for (int y = 0; y < states.height(); ++y)
-    for (int x = 0; x < states.width(); ++x)
-      if (states(x, y) != 0)
-        box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
-               std::max(box.y1, y + 1)};
-  return box;
-}
-
 constexpr std::ptrdiff_t min_label_pixels = std::ptrdiff_t{min_crop_px} * min_crop_px;
 
 bool is_large_enough(const Grid<std::uint8_t>& states) {

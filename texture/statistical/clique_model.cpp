@@ -132,6 +132,16 @@ Grid<std::uint8_t> widened(const Grid<std::uint8_t>& mask, int px) {
   return along(along(mask, true), false);
 }
 
+PixelRect box_of(const Grid<std::uint8_t>& mask) {
+  PixelRect box{mask.width(), mask.height(), 0, 0};
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x)
+      if (mask(x, y) != 0)
+        box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
+               std::max(box.y1, y + 1)};
+  return box;
+}
+
 Grid<std::uint8_t> near_borders(const Grid<std::uint8_t>& labels, int px) {
   Grid<std::uint8_t> border(labels.width(), labels.height());
   for (int y = 0; y < labels.height(); ++y)

@@ -7,6 +7,7 @@
 
 #include "base/grid.h"
 #include "base/masks/label_blur.h"
+#include "base/pixel_rect.h"
 
 namespace belvedere {
 
@@ -105,6 +106,9 @@ std::size_t model_bytes(const CliqueModel& model);
 
 // 1 within `px` pixels, along rows and columns, of a pixel that is not 0.
 Grid<std::uint8_t> widened(const Grid<std::uint8_t>& mask, int px);
+
+// The rectangle around all pixels that are not 0; empty where none is.
+PixelRect box_of(const Grid<std::uint8_t>& mask);
 
 // 1 for pixels within px pixels of a border of two labels, on either side (no_label has none); px =
 // 1: those with a neighbour of another label.

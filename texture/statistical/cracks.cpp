@@ -81,10 +81,8 @@ CrackModel learn_cracks(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states
 
 std::vector<Grid<Rgb8>> lay_cracks(const Grid<Rgb8>& picture, const CrackModel& cracks, int steps,
                                    std::uint64_t seed, Progress& progress) {
-  TextureParameters parameters;
-  parameters.seed = seed;
   const Grid<Rgb8> made =
-      make_texture(cracks.depth, picture.width(), picture.height(), parameters, progress);
+      make_texture(cracks.depth, picture.width(), picture.height(), {.seed = seed}, progress);
   Grid<float> depth(made.width(), made.height());
   for (std::size_t i = 0; i < made.size(); ++i) depth[i] = luma_of(made[i]);
   depth = gaussian_blur(depth, without_ties_px);

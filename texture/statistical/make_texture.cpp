@@ -227,12 +227,7 @@ Grid<Rgb8> make_texture(const CliqueModel& model, int width, int height,
 Grid<Rgb8> make_texture_under(const CliqueModel& model, const Grid<std::uint8_t>& mask,
                               const TextureParameters& parameters, Progress& progress) {
   check_texture_size(mask.width(), mask.height());
-  PixelRect box{mask.width(), mask.height(), 0, 0};
-  for (int y = 0; y < mask.height(); ++y)
-    for (int x = 0; x < mask.width(); ++x)
-      if (mask(x, y) != 0)
-        box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
-               std::max(box.y1, y + 1)};
+  const PixelRect box = box_of(mask);
   Grid<Rgb8> out(mask.width(), mask.height());
   if (box.empty()) return out;
   // Multiples of the pyramid's cells, so that these are the same for any mask.
@@ -374,12 +369,7 @@ Grid<Rgb8> fill_among(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hole,
                       Progress& progress) {
   if (!hole.same_size(picture) || !counts.same_size(picture))
     throw Error(ErrorKind::bug, "fill_among", "picture, hole and counts have different sizes");
-  PixelRect box{picture.width(), picture.height(), 0, 0};
-  for (int y = 0; y < hole.height(); ++y)
-    for (int x = 0; x < hole.width(); ++x)
-      if (hole(x, y) != 0)
-        box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
-               std::max(box.y1, y + 1)};
+  PixelRect box = box_of(hole);
   if (box.empty()) return picture;
   // The pyramid's cells depend on the box, so it begins at whole ones.
   const int cell = 1 << model.levels;

@@ -82,12 +82,7 @@ void write_report(const TextureFillOptions& options, const TextureScan& scan,
                   const Grid<glm::vec3>& after, const std::string& command) {
   constexpr int around_px = 64;
   const Grid<std::uint8_t>& hole = scan.hole;
-  PixelRect box{hole.width(), hole.height(), 0, 0};
-  for (int y = 0; y < hole.height(); ++y)
-    for (int x = 0; x < hole.width(); ++x)
-      if (hole(x, y) != 0)
-        box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
-               std::max(box.y1, y + 1)};
+  PixelRect box = box_of(hole);
   const PixelRect all{0, 0, hole.width(), hole.height()};
   box = box.empty() ? all : intersection(grown(box, around_px), all);
   Report report(options.report);
@@ -125,11 +120,9 @@ int run(const TextureFillOptions& options) {
   TerminalProgress progress(options.quiet);
   const CliqueModel model = read_model(options.model);
   const TextureScan scan = read_scan(options, progress);
-  TextureParameters parameters;
-  parameters.seed = options.seed;
-  const Grid<glm::vec3> filled = with_changes(
-      scan.stored, scan.picture,
-      fill_among(scan.picture, scan.hole, scan.counts, {}, model, parameters, progress));
+  const Grid<glm::vec3> filled = with_changes(scan.stored, scan.picture,
+                                              fill_among(scan.picture, scan.hole, scan.counts, {},
+                                                         model, {.seed = options.seed}, progress));
   return finish(options, scan, filled,
                 fmt::format("fill {} --hole {} --model {} --seed {}", file_name(options.picture),
                             file_name(options.hole), file_name(options.model), options.seed),
@@ -192,9 +185,8 @@ int run_plant(const TextureFillOptions& options) {
   Grid<std::uint8_t> made_in = widened(scan.hole, planted_margin_px);
   for (std::size_t i = 0; i < made_in.size(); ++i)
     if (scan.hole[i] == 0 && similar[i] != 0) made_in[i] = 0;
-  TextureParameters parameters;
-  parameters.seed = options.seed;
-  Grid<Rgb8> made = fill_among(scan.picture, made_in, similar, {}, model, parameters, progress);
+  Grid<Rgb8> made =
+      fill_among(scan.picture, made_in, similar, {}, model, {.seed = options.seed}, progress);
   for (std::size_t i = 0; i < made.size(); ++i)
     if (scan.hole[i] == 0) made[i] = scan.picture[i];
   const Grid<glm::vec3> planted = with_changes(scan.stored, scan.picture, made);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "base/error.h"
@@ -177,11 +178,10 @@ LabelPicture find_labels(const TextureCrop& crop, const std::string& path) {
       segment_painting(to_picture(crop.picture), alpha, usual_theta, path);
   const Partition groups =
       cut_tree(segments.tree, std::min(segments.groups, std::size_t{max_labels}));
-  std::vector<std::uint8_t> label_of(groups.size());
-  std::transform(groups.begin(), groups.end(), label_of.begin(),
-                 [](std::uint16_t group) { return static_cast<std::uint8_t>(group); });
+  std::vector<std::uint8_t> numbers(max_labels);
+  std::iota(numbers.begin(), numbers.end(), std::uint8_t{0});
   static_assert(unused_label == no_label);
-  const Grid<std::uint8_t> pieces = class_mask(segments, groups, label_of);
+  const Grid<std::uint8_t> pieces = class_mask(segments, groups, numbers);
   LabelPicture out{join_small_labels({crop.picture, crop.states, pieces, {}}), {}};
   Grid<std::uint8_t> known(out.labels.width(), out.labels.height());
   std::size_t count = 0;
