@@ -107,6 +107,13 @@ class Rules {
                "kind = \"road\" or another word of the style, or kind_of = a column of such words");
   }
 
+  void climate() {
+    const std::size_t months = scene_.climate.sunshine.size();
+    if (months > 1 && months != 12)
+      refuse("climate.sunshine", fmt::format("climate.sunshine has {} values", months),
+             "one share, or twelve: January … December");
+  }
+
   void generalize() {
     apply_preset();
     SceneGeneralize& settings = scene_.generalize;
@@ -429,6 +436,7 @@ void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin&
   Rules rules(scene, root, origin);
   rules.terrain();
   rules.land_cover();
+  rules.climate();
   rules.generalize();
   rules.deform();
   rules.mist();

@@ -254,6 +254,31 @@ std::vector<SceneSection> make_climate_sections() {
             .range = {0.05, 20},
             .meaning = "Factor on the rain of any source: 0.5 for ground half as wet, with more "
                        "steppe and less forest."},
+           {.name = "warmer_k",
+            .field = AT(climate.warmer_k),
+            .range = {-30, 30},
+            .unit = "K",
+            .meaning =
+                "Another time: all months are warmer by this than the sources say. Treeline, "
+                "snow and ice follow, unless land_cover.settings has their altitudes. -6: "
+                "an ice age."},
+           {.name = "wetter",
+            .field = AT(climate.wetter),
+            .range = {-0.95, 10},
+            .meaning = "Another time: share of precipitation that falls in addition; -0.3 is a "
+                       "third less."},
+           {.name = "clearings",
+            .field = AT(climate.clearings),
+            .range = {-1, 1},
+            .meaning = "Another time: 1 turns most forest on gentle slopes to pasture, -1 lets "
+                       "forest grow over the pastures. The rules' setting of that name has "
+                       "precedence."},
+           {.name = "sunshine",
+            .field = AT(climate.sunshine),
+            .range = {0, 1},
+            .meaning = "Share of the day in which the sun shines, of all months or of January … "
+                       "December: in cloudy country sunny and shaded slopes differ less. Default: "
+                       "1, a clear sky."},
            {.name = "lapse_k_per_km",
             .field = AT(climate.lapse_k_per_km),
             .range = {-5, 12},

@@ -23,6 +23,7 @@
 #include "renderer/world/scene_style.h"
 #include "renderer/world/scene_towns.h"
 #include "terrain/climate/map_climate.h"
+#include "terrain/climate/radiation.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/land_cover_patches.h"
 #include "terrain/layers/layer_apply.h"
@@ -103,7 +104,8 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules,
         .add("cell_x", cell_x)
         .add("cell_y", cell_y);
   }
-  key.add("latitude_deg", loaded.scene.climate.latitude_deg);
+  key.add("latitude_deg", loaded.scene.climate.latitude_deg)
+      .add("sunshine", loaded.scene.climate.sunshine);
   if (sites)
     for (const auto& [position, radius_m, stretch, along_rad, on_floor] : *sites)
       key.add("site", position)
@@ -202,6 +204,8 @@ ClassRuleParameters rule_parameters(const LoadedScene& loaded, const ClassRules&
   // A map's towns and rivers instead of inferred ones.
   GroundMap map = read_ground_map(loaded, dem, silent_progress(), cache);
   if (!map.keeps_towns) set_unless_said(settings, rules, "settlement", -1.0);
+  if (const double clearings = loaded.scene.climate.clearings; clearings != 0.0)
+    set_unless_said(settings, rules, "clearings", clearings);
   std::vector<KnownTown> towns = make_scene_towns(loaded, dem, progress);
   towns.insert(towns.end(), std::make_move_iterator(map.towns.begin()),
                std::make_move_iterator(map.towns.end()));
@@ -213,13 +217,18 @@ ClassRuleParameters rule_parameters(const LoadedScene& loaded, const ClassRules&
           .climate = rule_climate(loaded, rules, dem)};
 }
 
+MonthShares scene_sunshine(const LoadedScene& loaded) {
+  return shares_of_months(loaded.scene.climate.sunshine, "climate.sunshine");
+}
+
 Grid<float> sun_of(const LoadedScene& loaded, const Dem& dem, const WholeTerrain* whole,
                    Progress& progress) {
   const auto& latitude_deg = loaded.scene.climate.latitude_deg;
-  if (whole != nullptr) return sun_share(dem, whole->dem, latitude_deg, {}, progress);
+  const SunShareParameters parameters{.sunshine = scene_sunshine(loaded)};
+  if (whole != nullptr) return sun_share(dem, whole->dem, latitude_deg, parameters, progress);
   return sun_share(
-      dem, make_map_position(dem.transform, dem.crs, dem.width(), dem.height(), latitude_deg), {},
-      progress);
+      dem, make_map_position(dem.transform, dem.crs, dem.width(), dem.height(), latitude_deg),
+      parameters, progress);
 }
 
 // Class rules on a ground.
@@ -232,8 +241,8 @@ struct RuleWork {
   const WindowGround* window = nullptr;
 
   CacheKey key() const { return rule_cover_key(loaded, rules, parameters, dem, whole, window); }
-  // Not part of the key: the sun follows from the terrain and its position alone, and what rules
-  // used around a window from its own key.
+  // Not part of the key: the sun follows from the terrain, its position and the clouds, and what
+  // rules used around a window from its own key.
   template <class Work>
   auto with_all(Progress& progress, Work&& work) {
     if (takes_climate(loaded, rules, dem))
@@ -312,8 +321,9 @@ CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers,
       .add("spectrum", spectrum)
       .add("drawing", drawing_seed);
   add_sea(key, sea);
-  // Position and sun follow from the DEM and the latitude.
-  key.add("latitude_deg", loaded.scene.climate.latitude_deg);
+  // Position and sun follow from the DEM, the latitude and the clouds.
+  key.add("latitude_deg", loaded.scene.climate.latitude_deg)
+      .add("sunshine", loaded.scene.climate.sunshine);
   if (climate) {
     for (const auto& [sea_level_c, lapse_k_per_km, rain_mm_at_km, summer_share, gathers, dry_air,
                       sheltered] : climate->nodes)
@@ -365,7 +375,7 @@ LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, const Cove
       [&](Progress& watcher) {
         const LayerClimateGrids grids = make_layer_climate(
             dem, inputs, {}, loaded.scene.climate.latitude_deg, [&] { return *climate; }, watcher,
-            parameters.whole, sea);
+            parameters.whole, sea, scene_sunshine(loaded));
         if (whole != nullptr) parameters.drawn = whole->drawn->get();
         return layer_land_cover(layers, dem, grids.view(), parameters, watcher);
       });
@@ -511,7 +521,7 @@ WholeTerrain know_whole(const LoadedScene& loaded, const Dem& dem, const Sea& se
       [&loaded, &dem, layers, inputs, climate = whole.climate] {
         const LayerClimateGrids grids = make_layer_climate(
             dem, inputs, {}, loaded.scene.climate.latitude_deg, [&] { return *climate; },
-            silent_progress(), nullptr, scene_sea(loaded.scene.land_cover));
+            silent_progress(), nullptr, scene_sea(loaded.scene.land_cover), scene_sunshine(loaded));
         LayerApplyParameters parameters;
         parameters.seed = loaded.scene.seed;
         return plan_drawing(layers, dem, grids.view(), parameters);

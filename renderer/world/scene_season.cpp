@@ -20,7 +20,11 @@
 
 namespace belvedere {
 
-bool names_climate(const Scene& scene) { return scene.climate != SceneClimate{}; }
+bool names_climate(const Scene& scene) {
+  SceneClimate climate = scene.climate;
+  climate.clearings = 0.0;  // anywhere
+  return climate != SceneClimate{};
+}
 
 bool knows_place(const Scene& scene, const Dem& dem) {
   return !dem.crs.empty() || scene.climate.latitude_deg.has_value();
@@ -48,6 +52,8 @@ Climate make_scene_climate(const LoadedScene& loaded, const Dem& dem, Progress& 
   parameters.temperature_factor = settings.temperature_factor;
   parameters.rain = raster(settings.rain);
   parameters.rain_factor = settings.rain_factor;
+  parameters.warmer_k = settings.warmer_k;
+  parameters.wetter = settings.wetter;
   parameters.lapse_k_per_km = settings.lapse_k_per_km;
   parameters.wind_from_deg = settings.wind_from_deg;
   parameters.latitude_deg = settings.latitude_deg;

@@ -71,6 +71,8 @@ class Maker {
             p_.temperature_factor, "0.001 … 1000");
     require(p_.rain_factor >= 0.05 && p_.rain_factor <= 20.0, "rain_factor", p_.rain_factor,
             "0.05 … 20");
+    require(std::abs(p_.warmer_k) <= 30.0, "warmer_k", p_.warmer_k, "-30 … 30 K");
+    require(p_.wetter >= -0.95 && p_.wetter <= 10.0, "wetter", p_.wetter, "-0.95 … 10");
     if (p_.lapse_k_per_km)
       require(*p_.lapse_k_per_km >= min_lapse && *p_.lapse_k_per_km <= largest_lapse,
               "lapse_k_per_km", *p_.lapse_k_per_km, "-5 … 12 K/km");
@@ -111,6 +113,10 @@ class Maker {
     else
       tell("temperature: from latitude, longitude and altitude only");
     if (p_.lapse_k_per_km) set_lapse();
+    if (p_.warmer_k == 0.0) return;
+    for (PlaceClimate& node : climate_.nodes)
+      for (double& month_c : node.sea_level_c) month_c += p_.warmer_k;
+    tell(fmt::format("temperature: {:+g} K, set by the scene", p_.warmer_k));
   }
 
   void set_rain() {
@@ -134,7 +140,8 @@ class Maker {
                                "country behind ranges and far from the sea"
                              : "rain: from latitude, longitude and altitude only");
     if (!share.empty()) share_out_by_wind(std::move(share));
-    if (p_.rain_factor != 1.0) change_rain();
+    if (const double factor = p_.rain_factor * (1.0 + p_.wetter); factor != 1.0)
+      change_rain(factor);
   }
 
   Climate take() { return std::move(climate_); }
@@ -347,10 +354,10 @@ class Maker {
     tell(fmt::format("rain: {}", p_.rain->path));
   }
 
-  void change_rain() {
+  void change_rain(double factor) {
     for (PlaceClimate& node : climate_.nodes)
-      for (double& mm : node.rain_mm_at_km) mm *= p_.rain_factor;
-    tell(fmt::format("rain: times {:g}, set by the scene", p_.rain_factor));
+      for (double& mm : node.rain_mm_at_km) mm *= factor;
+    tell(fmt::format("rain: times {:g}, set by the scene", factor));
   }
 
   // Share of level ground's rain on the grid of about a kilometre.

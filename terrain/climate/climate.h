@@ -27,6 +27,9 @@ struct ClimateParameters {
   double temperature_factor = 1.0;  // 0.001…1000: °C (or K) per unit of the raster; .1 for tenths
   std::optional<RasterSource> rain = {};  // 12 bands of months, or one of the year, mm
   double rain_factor = 1.0;               // 0.05…20: on the rain of any source
+  // Another time, relative to all of these: an ice age, or a warmer century.
+  double warmer_k = 0.0;  // -30…30, in all months
+  double wetter = 0.0;    // -0.95…10: share of the rain that falls in addition
   std::optional<double> lapse_k_per_km =
       {};  // -5…12: overrides stations, raster and default for all months
   std::optional<double> wind_from_deg =

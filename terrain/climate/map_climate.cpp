@@ -7,7 +7,6 @@
 
 #include "base/filter.h"
 #include "base/parallel.h"
-#include "terrain/climate/radiation.h"
 #include "terrain/climate/water_balance.h"
 #include "terrain/climate/zonal_climate.h"
 #include "terrain/io/block_means.h"
@@ -60,11 +59,12 @@ int block_of(const Dem& dem, const SunShareParameters& parameters) {
 }
 
 // On all cells of a terrain.
-Grid<float> share_of_cells(const Grid<float>& coarse, const MapPosition& coarse_place, int azimuths,
-                           Progress& progress) {
+Grid<float> share_of_cells(const Grid<float>& coarse, const MapPosition& coarse_place,
+                           const SunShareParameters& given, Progress& progress) {
   const int columns = coarse.width();
   const int rows = coarse.height();
-  const RadiationParameters parameters{.azimuths = azimuths, .sun = {}};
+  const RadiationParameters parameters{.azimuths = given.azimuths,
+                                       .sun = {.sunshine = given.sunshine}};
   const Grid<float> direct =
       potential_radiation(coarse, coarse_place, parameters, progress).direct_mj_m2;
   // Level open ground at the rows' latitudes: maps of one column at three altitudes with a parabola
@@ -108,7 +108,7 @@ Grid<float> sun_share(const Dem& dem, const MapPosition& position, const SunShar
   for (MapPlane* plane :
        {&coarse_place.longitude_deg, &coarse_place.latitude_deg, &coarse_place.grid_north_deg})
     *plane = {plane->at(centre, centre), plane->per_column * block, plane->per_row * block};
-  const Grid<float> coarse_share = share_of_cells(coarse, coarse_place, given.azimuths, progress);
+  const Grid<float> coarse_share = share_of_cells(coarse, coarse_place, given, progress);
   Grid<float> share(dem.width(), dem.height());
   parallel_rows(dem.height(), [&](int y) {
     for (int x = 0; x < dem.width(); ++x)
@@ -131,8 +131,7 @@ Grid<float> sun_share(const Dem& window, const Dem& whole, std::optional<double>
   const MapPosition position =
       make_map_position(coarse.transform, window.crs, coarse.altitude_m.width(),
                         coarse.altitude_m.height(), latitude_deg);
-  const Grid<float> coarse_share =
-      share_of_cells(coarse.altitude_m, position, given.azimuths, progress);
+  const Grid<float> coarse_share = share_of_cells(coarse.altitude_m, position, given, progress);
   Grid<float> share(window.width(), window.height());
   parallel_rows(window.height(), [&](int y) {
     for (int x = 0; x < window.width(); ++x)

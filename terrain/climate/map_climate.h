@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "terrain/climate/climate.h"
 #include "terrain/climate/map_position.h"
+#include "terrain/climate/radiation.h"
 #include "terrain/climate/rule_climate.h"
 #include "terrain/io/dem.h"
 
@@ -28,9 +29,10 @@ RuleClimate make_map_lines(const Dem& dem, const Climate& climate,
 struct SunShareParameters {
   double cell_m = 90.0;  // the sun is computed on cells of at least this size, 0…1000
   int azimuths = 16;     // 8…360, directions of horizon
+  MonthShares sunshine = always_sunny;
 };
-// Annual direct sun divided by that of level open ground at the same position, 0 … about 2,
-// computed on coarser cells and interpolated.
+// Annual sun (Radiation::direct_mj_m2) divided by that of level open ground at the same position, 0
+// … about 2, computed on coarser cells and interpolated.
 Grid<float> sun_share(const Dem& dem, const MapPosition& position,
                       const SunShareParameters& parameters, Progress& progress = silent_progress());
 // The same on a window of a larger terrain; shadows from up to 24 km around the window are

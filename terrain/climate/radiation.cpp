@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/filter.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/memory_limit.h"
@@ -20,6 +21,8 @@ namespace belvedere {
 namespace {
 
 constexpr int days_of_year = 365;
+constexpr std::array<int, 12> first_days = {1,   32,  60,  91,  121, 152,
+                                            182, 213, 244, 274, 305, 335};  // of the months
 constexpr double solar_constant_w_m2 = 1367.0;
 constexpr double scale_height_m = 8434.5;
 
@@ -34,9 +37,26 @@ void check(double latitude_deg, const SunYearParameters& p) {
   require(p.first_day >= 1 && p.first_day <= days_of_year, "first_day", p.first_day, "1 … 365");
   require(p.last_day >= 1 && p.last_day <= days_of_year, "last_day", p.last_day, "1 … 365");
   require(p.step_min >= 0.5 && p.step_min <= 10.0, "step_min", p.step_min, "0.5 … 10 minutes");
+  for (const float share : p.sunshine)
+    require(share >= 0.F && share <= 1.F, "sunshine", static_cast<double>(share), "0 … 1");
 }
 
 }  // namespace
+
+MonthShares shares_of_months(const std::vector<float>& given, const std::string& where) {
+  MonthShares shares = always_sunny;
+  if (given.size() == 1)
+    shares.fill(given.front());
+  else if (given.size() == shares.size())
+    std::copy(given.begin(), given.end(), shares.begin());
+  else if (!given.empty())
+    throw Error(ErrorKind::usage, where, fmt::format("{} values", given.size()),
+                "one share, or twelve: January … December");
+  for (const float share : shares)
+    if (!(share >= 0.F && share <= 1.F))
+      throw Error(ErrorKind::usage, where, fmt::format("{}", share), "0 … 1");
+  return shares;
+}
 
 SunOfDay sun_of_day(int day) {
   const double angle = 2.0 * std::numbers::pi * (day - 1) / days_of_year;
@@ -66,7 +86,11 @@ std::vector<SunMoment> sun_moments(double latitude_deg, const SunYearParameters&
   const int count = (parameters.last_day - parameters.first_day + days_of_year) % days_of_year + 1;
   std::vector<SunMoment> moments;
   for (int i = 0; i < count; ++i) {
-    const SunOfDay day = sun_of_day((parameters.first_day - 1 + i) % days_of_year + 1);
+    const int number = (parameters.first_day - 1 + i) % days_of_year + 1;
+    const SunOfDay day = sun_of_day(number);
+    const auto month = static_cast<std::size_t>(
+        std::upper_bound(first_days.begin(), first_days.end(), number) - first_days.begin() - 1);
+    const auto sunshine = static_cast<double>(parameters.sunshine[month]);
     const exact::Turn declination = exact::turn(day.declination_rad);
     for (const exact::Turn& hour : hours) {
       const double sine =
@@ -82,7 +106,7 @@ std::vector<SunMoment> sun_moments(double latitude_deg, const SunYearParameters&
           {.azimuth_rad = azimuth,
            .sine = sine,
            .cosine = cosine,
-           .exposure_mj = solar_constant_w_m2 * day.nearness * seconds * 1e-6,
+           .exposure_mj = sunshine * (solar_constant_w_m2 * day.nearness * seconds * 1e-6),
            .air_mass = 1.0 / (sine + 0.50572 * exact::pow(elevation_deg + 6.07995, -1.6364))});
     }
   }
@@ -251,6 +275,27 @@ std::pair<float, float> range_of_altitudes(const Grid<float>& altitude_m) {
   return range.first > range.second ? std::pair{0.0F, 1.0F} : range;
 }
 
+// Light of the clouds that would reach level open ground, MJ/m² by altitude and latitude, with the
+// steps of `clear`; empty where the sun always shines.
+Grid<float> light_of_clouds(const SunTable& clear, double south_deg, double north_deg,
+                            double highest_m, SunYearParameters sun) {
+  if (sun.sunshine == always_sunny) return {};
+  for (float& share : sun.sunshine) share = 1.F - share;
+  constexpr int sectors = 8;  // their sum is the same for any number
+  const SunTable cloudy(south_deg, north_deg, clear.lowest_m(), highest_m, 0.0, sectors, sun);
+  Grid<float> light(SunTable::altitudes, cloudy.latitudes(), 0.F);
+  for (int sector = 0; sector < sectors; ++sector)
+    for (int l = 0; l < light.height(); ++l)
+      for (int a = 0; a < light.width(); ++a) {
+        const std::size_t step =
+            static_cast<std::size_t>(l) * (SunTable::steps + 1) + SunTable::step_of(0.F);
+        light(a, l) +=
+            overcast_share *
+            cloudy.sums(sector)[(step * SunTable::altitudes + static_cast<std::size_t>(a)) * 4];
+      }
+  return light;
+}
+
 }  // namespace
 
 Radiation potential_radiation(const Grid<float>& altitude_m, const MapPosition& position,
@@ -332,6 +377,8 @@ Radiation potential_radiation(const Grid<float>& altitude_m, const MapPosition& 
                   });
     progress.advance(1.0);
   }
+  const Grid<float> clouds = light_of_clouds(table, std::max(-90.0, south), std::min(90.0, north),
+                                             static_cast<double>(highest), parameters.sun);
   // Convert from level to inclined ground: a unit normal is (-right, -top, 1) / √(1 + right² +
   // top²).
   const auto share = 1.0F / static_cast<float>(sectors);
@@ -345,6 +392,11 @@ Radiation potential_radiation(const Grid<float>& altitude_m, const MapPosition& 
       float& direct = radiation.direct_mj_m2(x, y);
       direct = std::max(0.0F, direct) / std::sqrt(1.0F + g.right * g.right + g.top * g.top);
       radiation.sky_view(x, y) *= share;
+      if (!clouds.empty())
+        direct +=
+            radiation.sky_view(x, y) *
+            sample_bilinear(clouds, static_cast<double>((altitude_m(x, y) - lowest) * per_altitude),
+                            static_cast<double>(latitude.at(x, y)));
     }
   });
   return radiation;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/grid.h"
@@ -13,12 +15,21 @@ namespace belvedere {
 
 // The sun's path through the days of a year, and its radiation through clear air.
 
+// Share of the time from sunrise to sunset in which the sun shines, in each month, 0…1; the rest of
+// the time is cloudy. 1: a clear sky.
+using MonthShares = std::array<float, 12>;
+inline constexpr MonthShares always_sunny = {1.F, 1.F, 1.F, 1.F, 1.F, 1.F,
+                                             1.F, 1.F, 1.F, 1.F, 1.F, 1.F};
+// From none (a clear sky), one for all months, or twelve; Error(usage) at `where` for others.
+MonthShares shares_of_months(const std::vector<float>& given, const std::string& where);
+
 struct SunYearParameters {
   double transmissivity = 0.75;  // of clear air, sun overhead, at sea level: 0.1…1; 1: no
                                  // attenuation; .77 is about Linke's turbidity 3
   int first_day = 1;             // 1…365, of the year
   int last_day = 365;     // 1…365, inclusive; before the first day: across the end of the year
   double step_min = 2.0;  // 0.5…10, minutes between two positions of the sun
+  MonthShares sunshine = always_sunny;  // each position counts by the share of its month
 };
 
 // One position of the sun, for all the minutes it represents.
@@ -105,12 +116,17 @@ struct RadiationParameters {
 // Clear-sky light on the ground.
 struct Radiation {
   // Potential direct radiation from the first day to the last, MJ per m² of inclined ground; NaN
-  // where the ground is void.
+  // where the ground is void. Where the sun does not always shine: its direct light while it does,
+  // and the light of the clouds (overcast_share) from the visible sky.
   Grid<float> direct_mj_m2;
   // Sky-view factor: share of the light of a uniform sky that reaches level ground, the mean of
   // cos² of the horizon, which includes the ground's own slope. 0…1, NaN where the ground is void.
   Grid<float> sky_view;
 };
+
+// Light of an overcast sky on level ground, as a share of the direct light of a clear one: .25 of
+// .75 in Ångström's formula (Allen and others 1998, FAO 56, equation 35).
+inline constexpr float overcast_share = 1.F / 3.F;
 
 // Horizons by sweeps (horizon_sweep.h), one per direction for all days; positions of the sun as
 // sums by the tangent of their elevation (SunTable), so that a cell costs one look-up per

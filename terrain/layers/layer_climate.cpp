@@ -9,7 +9,6 @@
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "terrain/climate/map_climate.h"
-#include "terrain/climate/radiation.h"
 #include "terrain/cover/ground_lakes.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/io/raster_io.h"
@@ -139,7 +138,8 @@ LayerClimateGrids make_layer_climate(const Dem& dem, const std::vector<std::stri
                                      const LayerClimateFiles& files,
                                      std::optional<double> latitude_deg,
                                      const ClimateMaker& climate, Progress& progress,
-                                     const Dem* whole, const SeaParameters& sea_parameters) {
+                                     const Dem* whole, const SeaParameters& sea_parameters,
+                                     const MonthShares& sunshine) {
   using enum LayerInputKind;
   LayerClimateGrids grids;
   const auto read = [&](LayerInputKind kind, const std::string& file, Grid<float>& grid) {
@@ -169,7 +169,8 @@ LayerClimateGrids make_layer_climate(const Dem& dem, const std::vector<std::stri
     const MapPosition position =
         make_map_position(ground.transform, dem.crs, ground.altitude_m.width(),
                           ground.altitude_m.height(), latitude_deg);
-    Radiation sun = potential_radiation(ground.altitude_m, position, {}, progress);
+    Radiation sun =
+        potential_radiation(ground.altitude_m, position, {.sun = {.sunshine = sunshine}}, progress);
     if (whole != nullptr)
       for (Grid<float>* grid : {&sun.direct_mj_m2, &sun.sky_view})
         *grid = part_of(

@@ -1,10 +1,12 @@
 #include "renderer/world/scene_land_cover.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "base/cache/cache.h"
 #include "terrain/io/raster_io.h"
@@ -237,6 +239,94 @@ TEST(LayersInAScene, HangOnItsClimateAlsoFromTheCache) {
   }
   const Error error = test::error_of([&] { made("", "", cache); });
   EXPECT_EQ(error.where(), "climate.latitude_deg");
+}
+
+// The ground of a scene at a place on the Earth, 12 km square.
+Dem valley_at(double latitude_deg, double longitude_deg) {
+  Grid<float> altitude(40, 40);
+  for (const auto [x, y] : test::cells(40, 40))
+    altitude(x, y) = 600.F + 40.F * static_cast<float>(x);
+  return make_dem({altitude,
+                   {0.0, 0.0, 300.0, 300.0},
+                   normalize_crs(fmt::format("+proj=laea +lat_0={} +lon_0={} +datum=WGS84 +units=m",
+                                             latitude_deg, longitude_deg))});
+}
+
+// P44: in a warmer or colder time treeline, snow and ice are where the air is as warm, some 150 m
+// higher for each kelvin; the ice of the Alps a little less, because more falls on their heights.
+TEST(AnotherTime, ShiftsTheLinesOfTreesSnowAndIceByAHundredAndFiftyMetresAKelvin) {
+  const Sea no_sea;
+  const auto rules = [&](const Dem& dem, const std::string& climate) {
+    const LoadedScene scene = parse_scene("version = 1\n[climate]\n" + climate, "s.toml", "", {});
+    return know_whole(scene, dem, no_sea).rules;
+  };
+  const Dem karwendel = valley_at(47.4, 11.5);
+  const Dem aoraki = valley_at(-43.6, 170.15);
+  for (const auto& [dem, kelvin, ice_tolerance_m] :
+       {std::tuple(&karwendel, 1.0, 30.0), std::tuple(&karwendel, -6.0, 30.0),
+        std::tuple(&aoraki, -3.0, 20.0)}) {
+    const RuleClimate now = rules(*dem, "").climate;
+    const RuleClimate then = rules(*dem, fmt::format("warmer_k = {}\n", kelvin)).climate;
+    const auto shift = [&, k = kelvin](const Grid<float>& line, const Grid<float>& before) {
+      return static_cast<double>(line(0, 0) - before(0, 0)) / k;
+    };
+    EXPECT_NEAR(shift(then.treeline_m, now.treeline_m), 150.0, 20.0) << kelvin;
+    EXPECT_NEAR(shift(then.snow_line_m, now.snow_line_m), 150.0, ice_tolerance_m) << kelvin;
+    EXPECT_NEAR(shift(then.ice_line_m, now.ice_line_m), 150.0, ice_tolerance_m) << kelvin;
+  }
+  // More snow, lower ice; what grows is told by warmth alone.
+  const RuleClimate now = rules(karwendel, "").climate;
+  const RuleClimate wet = rules(karwendel, "wetter = 0.5\n").climate;
+  EXPECT_LT(wet.ice_line_m(0, 0), now.ice_line_m(0, 0) - 100.F);
+  EXPECT_EQ(wet.treeline_m(0, 0), now.treeline_m(0, 0));
+  EXPECT_NEAR(wet.rain_mm[3](0, 0), 1.5F * now.rain_mm[3](0, 0), 0.1F);
+}
+
+TEST(AnotherTime, ClearingsTurnForestToPasture) {
+  const Dem dem = valley_at(47.4, 11.5);
+  const auto forest_share = [&](const std::string& text) {
+    const LoadedScene scene = parse_scene("version = 1\n" + text, "s.toml", "", {});
+    const Grid<LandCoverClass> classes =
+        make_scene_land_cover(scene, dem, silent_progress()).classes.cells;
+    return static_cast<double>(std::count(classes.begin(), classes.end(), forest)) /
+           static_cast<double>(classes.size());
+  };
+  const double now = forest_share("");
+  EXPECT_LT(forest_share("[climate]\nclearings = 1\n"), 0.6 * now);
+  EXPECT_GT(forest_share("[climate]\nclearings = -1\n"), now);
+  EXPECT_EQ(forest_share("[climate]\nclearings = 1\n[land_cover.settings]\nclearings = 0\n"), now);
+}
+
+// P41: under clouds the rules and the layers see less difference between sunny and shaded slopes.
+TEST(AnotherTime, SunshineIsAnInputOfRulesAndLayers) {
+  const test::Folder folder;
+  folder.write("sunny.layers.toml",
+               "version = 1\nground = { class = \"rock\" }\n[[layers]]\nname = \"sunny\"\nclass = "
+               "\"pasture\"\nwhen = \"radiation > 4000\"\n");
+  folder.write("rules.toml",
+               "version = 1\nname = \"sunny\"\n[parameters]\nspeck_cells = 0\n[[layers]]\nclass = "
+               "\"rock\"\nwhen = \"1\"\n[[layers]]\nclass = \"pasture\"\nwhen = \"sun < 0.9 and "
+               "treeline > 0\"\n");
+  // A roof of 27°, half of it to the north.
+  Dem dem = valley_at(47.4, 11.5);
+  for (const auto [x, y] : test::cells(40, 40))
+    dem.altitude_m(x, y) = 3000.F - 150.F * std::abs(static_cast<float>(y) - 19.5F);
+  const auto pastures = [&](const std::string& cover, const std::string& climate) {
+    const LoadedScene scene = parse_scene(
+        "version = 1\n[land_cover]\n" + cover + "[climate]\nlapse_k_per_km = 6\n" + climate,
+        "s.toml", folder.path(), {});
+    const Grid<LandCoverClass> classes =
+        make_scene_land_cover(scene, dem, silent_progress()).classes.cells;
+    return std::count(classes.begin(), classes.end(), pasture);
+  };
+  const std::string layers = "layers = \"sunny.layers.toml\"\n";
+  const std::string rules = "rules = \"rules.toml\"\n";
+  EXPECT_GT(pastures(layers, ""), 100);
+  EXPECT_EQ(pastures(layers, "sunshine = [0.1]\n"), 0);
+  EXPECT_GT(pastures(rules, ""), 100);
+  EXPECT_EQ(pastures(rules, "sunshine = [0]\n"), 0);
+  const Error error = test::error_of([&] { pastures(rules, "sunshine = [0.4, 0.5]\n"); });
+  EXPECT_NE(std::string(error.what()).find("climate.sunshine"), std::string::npos) << error.what();
 }
 
 }  // namespace

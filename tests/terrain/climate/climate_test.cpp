@@ -154,6 +154,46 @@ TEST(Climate, RainIsMetAtItsStationsOnMapsOfAnySize) {
   }
 }
 
+// The printed error is that of the rain that falls in the end, after the wind: each station left
+// out of the file in turn and looked up in the climate of the others.
+TEST(Climate, PrintedErrorOfRainIsThatOfTheRainThatFalls) {
+  const test::Folder folder;
+  const std::string words = "error at a left-out station ";
+  for (const int km : {12, 40, 80}) {
+    const Dem dem = make_ridge(km * 1000 / 300, 60);
+    std::vector<Station> stations;  // ten, on both sides of the ridge
+    int number = 0;
+    for (const Station& station :
+         stations_on(dem, [](glm::dvec2 position, double altitude_m, double share) {
+           const double uneven = std::sin(0.37 * position.x) + std::cos(0.53 * position.y);
+           return (900.0 + 0.1 * altitude_m + 150.0 * uneven) * share;
+         }))
+      if (number++ % 2 == 0 && stations.size() < 10) stations.push_back(station);
+    const auto climate_without = [&](std::size_t left_out) {
+      std::string text = "east,north,altitude,rain_mm\n";
+      for (std::size_t i = 0; i < stations.size(); ++i)
+        if (i != left_out)
+          text += fmt::format("{},{},{},{}\n", stations[i].position.x, stations[i].position.y,
+                              stations[i].altitude_m, stations[i].rain_mm);
+      return make_climate(dem, {.stations = folder.write("s.csv", text), .wind_from_deg = 270.0},
+                          synthetic, silent_progress());
+    };
+    double square = 0.0;
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      const glm::dvec2 cell = dem.transform.to_cell(stations[i].position.x, stations[i].position.y);
+      square += std::pow(rain_mm(climate_without(i).at(cell.x, cell.y), stations[i].altitude_m) -
+                             stations[i].rain_mm,
+                         2.0);
+    }
+    const std::string told = join(climate_without(stations.size()).sources);
+    const std::size_t at = told.find(words);
+    ASSERT_NE(at, std::string::npos) << told;
+    EXPECT_NEAR(std::stod(told.substr(at + words.size())),
+                std::sqrt(square / static_cast<double>(stations.size())), 1.0)
+        << km << " km";
+  }
+}
+
 // The rain of dry places was measured in the lee of their ranges.
 TEST(Climate, DryPlacesKeepTheirRainOnMapsOfAnySize) {
   const auto dry = [](glm::dvec2 lonlat) {

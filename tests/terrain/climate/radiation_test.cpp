@@ -103,6 +103,50 @@ TEST(Radiation, LevelGroundInAPitGetsTheSunAboveItsRim) {
   EXPECT_NEAR(radiation.sky_view(100, 100), std::pow(std::cos(to_radians(10.0)), 2.0), 0.002);
 }
 
+// P41: a sun that always shines is a clear sky, bit for bit; one that never shines leaves a third
+// of the light of level ground to the visible sky, the same on all sides; between, the light is
+// mixed.
+TEST(Radiation, CloudsHaveAClosedFormAtNoneAndAll) {
+  constexpr double slope_deg = 30.0;
+  const MapPosition position = flat_position(9, 9, 47.0);
+  const auto light = [&](const Grid<float>& ground, const std::vector<float>& sunshine) {
+    RadiationParameters parameters;
+    parameters.sun.step_min = 10.0;
+    parameters.sun.sunshine = shares_of_months(sunshine, "sunshine");
+    return potential_radiation(ground, position, parameters);
+  };
+  RadiationParameters clear;
+  clear.sun.step_min = 10.0;
+  const Grid<float> level(9, 9, 1000.F);
+  const float level_mj = potential_radiation(level, position, clear).direct_mj_m2(4, 4);
+  EXPECT_NEAR(light(level, {0.F}).direct_mj_m2(4, 4), level_mj / 3.F, 1e-3F * level_mj);
+  std::vector<float> half_year(12, 0.F);
+  std::fill(half_year.begin() + 3, half_year.begin() + 9, 1.F);
+  for (const double towards_deg : {0.0, 90.0, 180.0}) {
+    const Grid<float> plane = make_plane(slope_deg, towards_deg, 9);
+    const Radiation sunny = potential_radiation(plane, position, clear);
+    EXPECT_EQ(light(plane, {1.F}).direct_mj_m2, sunny.direct_mj_m2);
+    const Radiation cloudy = light(plane, {0.F});
+    // The plane hides the sky below it: the mean of cos² of its own horizon is (1 + cos) / 2.
+    const double sky = 0.5 * (1.0 + std::cos(to_radians(slope_deg)));
+    EXPECT_NEAR(cloudy.direct_mj_m2(4, 4), level_mj / 3.0 * sky, 0.005 * level_mj) << towards_deg;
+    EXPECT_NEAR(light(plane, {0.25F}).direct_mj_m2(4, 4),
+                0.25F * sunny.direct_mj_m2(4, 4) + 0.75F * cloudy.direct_mj_m2(4, 4),
+                1e-3F * level_mj);
+    // April to September alone, the rest of the year in cloud: between the two.
+    const float summer = light(plane, half_year).direct_mj_m2(4, 4);
+    EXPECT_GT(summer, std::min(sunny.direct_mj_m2(4, 4), cloudy.direct_mj_m2(4, 4)));
+    EXPECT_LT(summer, std::max(sunny.direct_mj_m2(4, 4), cloudy.direct_mj_m2(4, 4)));
+  }
+  EXPECT_THAT(test::message_of(ErrorKind::usage,
+                               [] {
+                                 shares_of_months({0.5F, 0.5F}, "sunshine");
+                               }),
+              testing::HasSubstr("twelve"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { shares_of_months({1.5F}, "sunshine"); }),
+              testing::HasSubstr("0 … 1"));
+}
+
 TEST(Radiation, IsWhatRaysThatMarchOverTheGroundFind) {
   const std::string path = test::data_folder() + "/innsbruck/innsbruck_utm32_30m.tif";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "needs " << path;

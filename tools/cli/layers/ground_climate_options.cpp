@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "terrain/climate/climate.h"
 #include "terrain/climate/default_climate.h"
+#include "terrain/climate/radiation.h"
 #include "terrain/io/raster_io.h"
 #include "tools/options/options.h"
 
@@ -55,6 +56,12 @@ void add_ground_climate(CommandOptions& command, GroundClimateOptions& options) 
       .type_name("FILE")
       .files(FileUse::input);
   command
+      .add_option("--sunshine", options.sunshine,
+                  "Clouds in the computed radiation: share of the day with sunshine, 0 … 1, of all "
+                  "months or of January,…,December. Default: 1, a clear sky")
+      .list(',')
+      .type_name("SHARES");
+  command
       .add_option("--latitude", options.latitude_deg,
                   "Latitude, for a DEM without a coordinate system whose sun or climate is "
                   "computed, degrees")
@@ -90,7 +97,8 @@ LayerClimateGrids climate_of(const GroundClimateOptions& options, const Dem& dem
         [](glm::dvec2 lonlat_deg) { return default_climate(lonlat_deg.x, lonlat_deg.y); },
         progress);
   };
-  return make_layer_climate(dem, names, files, options.latitude_deg, climate, progress);
+  return make_layer_climate(dem, names, files, options.latitude_deg, climate, progress, nullptr, {},
+                            shares_of_months(options.sunshine, "--sunshine"));
 }
 
 }  // namespace belvedere::tools

@@ -14,11 +14,12 @@ namespace belvedere::tools {
 class CommandOptions;
 
 // Options of climate and sun of the commands on layers: --stations, --temperature, --rain,
-// --radiation, --sky-view, --latitude.
+// --radiation, --sky-view, --sunshine, --latitude.
 struct GroundClimateOptions {
   LayerClimateFiles files;
   std::string stations;
   std::optional<double> latitude_deg;
+  std::vector<float> sunshine;  // one share or twelve; empty: a clear sky
 };
 void add_ground_climate(CommandOptions& command, GroundClimateOptions& options);
 
