@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "terrain/climate/station_regions.h"
 #include "terrain/climate/stations.h"
 #include "terrain/io/block_means.h"
 #include "terrain/io/raster_io.h"
@@ -20,6 +20,8 @@ namespace {
 
 constexpr std::size_t months = 12;
 constexpr double node_spacing_m = 50000.0;
+constexpr double region_node_spacing_m = 2000.0;  // where stations form regions, which are smaller
+constexpr int max_region_nodes = 65;              // on a side
 constexpr double coarse_m = 1000.0;
 constexpr double min_map_for_wind_m = 40000.0;
 constexpr double min_lapse = -5.0;
@@ -102,6 +104,9 @@ class Maker {
         climate_.nodes(x, y) = fallback(
             {position.longitude_deg.at(cell.x, cell.y), position.latitude_deg.at(cell.x, cell.y)});
       }
+    if (!p_.stations.empty() &&
+        station_regions(stations().stations, [](const Station&) { return true; }).size() > 1)
+      refine_nodes();
   }
 
   void set_temperature() {
@@ -157,10 +162,39 @@ class Maker {
                        [](const PlaceClimate& node) { return node.sheltered > 0.0; });
   }
 
-  glm::dvec2 cell_of_node(int x, int y) const {
-    return {
-        static_cast<double>(x) / (climate_.nodes.width() - 1) * (climate_.position.width - 1),
-        static_cast<double>(y) / (climate_.nodes.height() - 1) * (climate_.position.height - 1)};
+  // The cell of the map at a node; `of`: the nodes' grid.
+  glm::dvec2 cell_of_node(int x, int y, const Grid<PlaceClimate>& of) const {
+    return {static_cast<double>(x) / (of.width() - 1) * (climate_.position.width - 1),
+            static_cast<double>(y) / (of.height() - 1) * (climate_.position.height - 1)};
+  }
+  glm::dvec2 cell_of_node(int x, int y) const { return cell_of_node(x, y, climate_.nodes); }
+
+  // The same climate on nodes that are close enough for regions.
+  void refine_nodes() {
+    const MapPosition& position = climate_.position;
+    const auto count = [](int cells, double cell_m) {
+      return std::min(max_region_nodes,
+                      2 + static_cast<int>(cells * cell_m / region_node_spacing_m));
+    };
+    Grid<PlaceClimate> finer(count(position.width, position.cell_m.x),
+                             count(position.height, position.cell_m.y));
+    for (int y = 0; y < finer.height(); ++y)
+      for (int x = 0; x < finer.width(); ++x) {
+        const glm::dvec2 cell = cell_of_node(x, y, finer);
+        finer(x, y) = climate_.at(cell.x, cell.y);
+      }
+    climate_.nodes = std::move(finer);
+  }
+
+  // Each node with the weights of regions there.
+  template <class Use>
+  void for_nodes(const std::vector<StationRegion>& regions, Use&& use) {
+    for (int y = 0; y < climate_.nodes.height(); ++y)
+      for (int x = 0; x < climate_.nodes.width(); ++x) {
+        const glm::dvec2 cell = cell_of_node(x, y);
+        const glm::dvec2 position = dem_.transform.to_crs(cell.x, cell.y);
+        use(climate_.nodes(x, y), position, region_weights(regions, position));
+      }
   }
 
   const StationTable& stations() {
@@ -168,51 +202,76 @@ class Maker {
     return *stations_;
   }
 
-  std::string named() {
-    return fmt::format("{} stations of {}{}", stations().stations.size(), p_.stations,
-                       stations().period.empty() ? "" : " (" + stations().period + ")");
+  // For the report: the stations of a fit.
+  std::string named(const StationRegion& region, bool is_only) {
+    return fmt::format("{}{} stations of {}{}{}",
+                       is_only ? "" : fmt::format("region \"{}\": ", region.name),
+                       is_only ? stations().stations.size() : region.stations.size(), p_.stations,
+                       stations().period.empty() ? "" : " (" + stations().period + ")",
+                       region.is_own ? "" : ", because its own are too few");
   }
 
   void from_stations() {
-    std::vector<double> altitude_m;
-    std::vector<double> year_c;
-    for (const Station& station : stations().stations) {
-      altitude_m.push_back(station.altitude_m);
-      year_c.push_back(station.temperature_year_c);
+    const std::vector<StationRegion> regions =
+        station_regions(stations().stations, [](const Station& s) {
+          return !std::isnan(s.temperature_year_c) ||
+                 std::any_of(s.temperature_c.begin(), s.temperature_c.end(),
+                             [](double month_c) { return !std::isnan(month_c); });
+        });
+    const auto fit = [](const StationRegion& region, auto&& value, int bootstrap_samples) {
+      std::vector<double> altitude_m;
+      std::vector<double> temperature_c;
+      for (const Station& station : region.stations) {
+        altitude_m.push_back(station.altitude_m);
+        temperature_c.push_back(value(station));
+      }
+      return fit_lapse_rate(altitude_m, temperature_c, bootstrap_samples);
+    };
+    std::vector<LapseRate> year;
+    for (const StationRegion& region : regions) {
+      year.push_back(fit(
+          region, [](const Station& s) { return s.temperature_year_c; }, 400));
+      tell(fmt::format(
+          "temperature: {}: falls {:.2f} K/km over the year (95 % of resampled stations: {:.2f} … "
+          "{:.2f}); error at a left-out station {:.2f} K",
+          named(region, regions.size() == 1), year.back().k_per_km, year.back().low_k_per_km,
+          year.back().high_k_per_km, year.back().left_out_k));
     }
-    const LapseRate year = fit_lapse_rate(altitude_m, year_c);
-    tell(fmt::format(
-        "temperature: {}: falls {:.2f} K/km over the year (95 % of resampled stations: {:.2f} … "
-        "{:.2f}); error at a left-out station {:.2f} K",
-        named(), year.k_per_km, year.low_k_per_km, year.high_k_per_km, year.left_out_k));
+    // Two regions meet in the mean of their temperatures, at any altitude.
+    const auto blended = [](const std::vector<LapseRate>& rates, const std::vector<double>& weights,
+                            double LapseRate::*value) {
+      double sum = 0.0;
+      for (std::size_t r = 0; r < rates.size(); ++r) sum += weights[r] * rates[r].*value;
+      return sum;
+    };
     if (!stations().has_months()) {
-      for (PlaceClimate& node : climate_.nodes) {
+      for_nodes(regions, [&](PlaceClimate& node, glm::dvec2, const std::vector<double>& weights) {
         // The default's annual cycle around the stations' mean.
-        const auto mean = [](const std::array<double, months>& of) {
-          return std::accumulate(of.begin(), of.end(), 0.0) / 12.0;
-        };
-        const double warmer = year.sea_level_c - mean(node.sea_level_c);
-        const double steeper = year.k_per_km - mean(node.lapse_k_per_km);
+        const double warmer =
+            blended(year, weights, &LapseRate::sea_level_c) - year_mean(node.sea_level_c);
+        const double steeper =
+            blended(year, weights, &LapseRate::k_per_km) - year_mean(node.lapse_k_per_km);
         for (std::size_t m = 0; m < months; ++m) {
           node.sea_level_c[m] += warmer;
           node.lapse_k_per_km[m] += steeper;
         }
-      }
+      });
       return;
     }
     double min = std::numeric_limits<double>::max();
     double max = std::numeric_limits<double>::lowest();
     for (std::size_t m = 0; m < months; ++m) {
-      std::vector<double> month_c;
-      for (const Station& station : stations().stations)
-        month_c.push_back(station.temperature_c[m]);
-      const LapseRate rate = fit_lapse_rate(altitude_m, month_c, 0);
-      for (PlaceClimate& node : climate_.nodes) {
-        node.sea_level_c[m] = rate.sea_level_c;
-        node.lapse_k_per_km[m] = rate.k_per_km;
+      std::vector<LapseRate> rates;
+      for (const StationRegion& region : regions) {
+        rates.push_back(fit(
+            region, [m](const Station& s) { return s.temperature_c[m]; }, 0));
+        min = std::min(min, rates.back().k_per_km);
+        max = std::max(max, rates.back().k_per_km);
       }
-      min = std::min(min, rate.k_per_km);
-      max = std::max(max, rate.k_per_km);
+      for_nodes(regions, [&](PlaceClimate& node, glm::dvec2, const std::vector<double>& weights) {
+        node.sea_level_c[m] = blended(rates, weights, &LapseRate::sea_level_c);
+        node.lapse_k_per_km[m] = blended(rates, weights, &LapseRate::k_per_km);
+      });
     }
     tell(fmt::format("temperature: falls {:.1f} … {:.1f} K/km, by month", min, max));
   }
@@ -290,38 +349,60 @@ class Maker {
   // plane alone meets them better, they do not know this wind, and `share` is emptied unless the
   // scene names it.
   void rain_from_stations(Grid<float>& share) {
-    const std::vector<Station>& all = stations().stations;
-    RainPlane plane = fit_rain(all);
+    const std::vector<StationRegion> regions = station_regions(
+        stations().stations, [](const Station& s) { return !std::isnan(s.rain_mm); });
+    const auto fit = [&](const Grid<float>& by_wind) {
+      std::vector<RainPlane> planes;
+      for (const StationRegion& region : regions) {
+        std::vector<double> at_station;
+        if (!by_wind.empty())
+          for (const Station& station : region.stations)
+            at_station.push_back(share_at(by_wind, station.position));
+        planes.push_back(fit_rain(region.stations, at_station));
+      }
+      return planes;
+    };
+    const auto off_mm = [](const std::vector<RainPlane>& of) {
+      double sum = 0.0;
+      double count = 0.0;
+      for (const RainPlane& plane : of) {
+        sum += plane.stations * plane.off_mm;
+        count += plane.stations;
+      }
+      return sum / count;
+    };
+    std::vector<RainPlane> planes = fit({});
     if (!share.empty()) {
-      std::vector<double> at_station;
-      for (const Station& station : all) at_station.push_back(share_at(share, station.position));
-      RainPlane level = fit_rain(all, at_station);
+      std::vector<RainPlane> level = fit(share);
       constexpr double clearly_mm = 1.0;
-      if (p_.wind_from_deg || level.off_mm < plane.off_mm + clearly_mm) {
-        plane = level;
+      if (p_.wind_from_deg || off_mm(level) < off_mm(planes) + clearly_mm) {
+        planes = std::move(level);
       } else {
         share = {};
         tell(
             fmt::format("rain: the stations show no windward and lee of a wind from {:.0f}°: with "
                         "it {:.0f} mm off, without {:.0f}",
-                        climate_.wind_from_deg, level.off_mm, plane.off_mm));
+                        climate_.wind_from_deg, off_mm(level), off_mm(planes)));
       }
     }
-    for (int y = 0; y < climate_.nodes.height(); ++y)
-      for (int x = 0; x < climate_.nodes.width(); ++x) {
-        const glm::dvec2 cell = cell_of_node(x, y);
-        const glm::dvec2 position = dem_.transform.to_crs(cell.x, cell.y);
-        PlaceClimate& node = climate_.nodes(x, y);
-        node.gathers = 1.0;  // the glaciers' correction applies only to the default's rain
-        node.sheltered = 0.0;
-        for (std::size_t km = 0; km < node.rain_mm_at_km.size(); ++km)
-          node.rain_mm_at_km[km] = plane.at(position, 1000.0 * static_cast<double>(km));
-      }
-    tell(
-        fmt::format("rain: {}: {:.0f} mm at {:.0f} m, {:+.0f} mm per km of altitude (95 % of "
-                    "resampled stations: {:+.0f} … {:+.0f}); error at a left-out station {:.0f} mm",
-                    named(), plane.at_centre_mm, plane.centre_m, plane.mm_per_km_up,
-                    plane.low_mm_per_km_up, plane.high_mm_per_km_up, plane.left_out_mm));
+    for_nodes(regions,
+              [&](PlaceClimate& node, glm::dvec2 position, const std::vector<double>& weights) {
+                node.gathers = 1.0;  // the glaciers' correction applies only to the default's rain
+                node.sheltered = 0.0;
+                for (std::size_t km = 0; km < node.rain_mm_at_km.size(); ++km) {
+                  double mm = 0.0;
+                  for (std::size_t r = 0; r < planes.size(); ++r)
+                    mm += weights[r] * planes[r].at(position, 1000.0 * static_cast<double>(km));
+                  node.rain_mm_at_km[km] = mm;
+                }
+              });
+    for (std::size_t r = 0; r < planes.size(); ++r)
+      tell(fmt::format(
+          "rain: {}: {:.0f} mm at {:.0f} m, {:+.0f} mm per km of altitude (95 % of "
+          "resampled stations: {:+.0f} … {:+.0f}); error at a left-out station {:.0f} mm",
+          named(regions[r], regions.size() == 1), planes[r].at_centre_mm, planes[r].centre_m,
+          planes[r].mm_per_km_up, planes[r].low_mm_per_km_up, planes[r].high_mm_per_km_up,
+          planes[r].left_out_mm));
   }
 
   void rain_from_raster() {

@@ -45,6 +45,7 @@ StationTable from_points(const std::string& path, const std::string& crs) {
                 allowed);
   };
   const int name = table.find("name");
+  const int region = table.find("region");
   const int altitude = find_one_of(table, {"altitude_m", "altitude", "elevation", "height"});
   if (altitude < 0)
     missing("altitude_m", "altitude_m (or altitude, elevation, height): metres above sea level");
@@ -68,6 +69,7 @@ StationTable from_points(const std::string& path, const std::string& crs) {
   for (const PointTable::Point& point : table.points) {
     Station station;
     station.name = name < 0 ? point.where : point.values[static_cast<std::size_t>(name)];
+    if (region >= 0) station.region = point.values[static_cast<std::size_t>(region)];
     station.position = point.position;
     station.altitude_m = number_in(table, point, altitude, -500.0, 9000.0, "metres");
     if (std::isnan(station.altitude_m))

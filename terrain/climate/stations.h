@@ -13,6 +13,7 @@ namespace belvedere {
 // its altitude.
 struct Station {
   std::string name;
+  std::string region;        // homogeneous area that it stands in; empty: not named
   glm::dvec2 position{0.0};  // x, y in the requested CRS
   double altitude_m = 0.0;
   std::array<double, 12> temperature_c;  // monthly means, NaN if unknown
@@ -36,7 +37,7 @@ inline constexpr int fewest_stations = 8;
 // A table of points (terrain/io/points.h: CSV with lon and lat or east and north, GeoPackage …)
 // with columns
 //   altitude_m (or altitude, elevation, height), m;  t_1 … t_12, °C, or t_year;
-//   rain_mm (or rain, precipitation), mm per year;  name;
+//   rain_mm (or rain, precipitation), mm per year;  name;  region: see station_regions.h;
 // empty fields: unknown. Or netCDF with monthly arrays lon, lat, hgt (lat, lon), time, temp and
 // prcp (time, lat, lon), averaged over the last 30 years. `crs`: of the map. Throws Error(usage)
 // with the missing column or array and for malformed numbers, else as read_points and

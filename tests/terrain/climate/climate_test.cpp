@@ -194,6 +194,61 @@ TEST(Climate, PrintedErrorOfRainIsThatOfTheRainThatFalls) {
   }
 }
 
+// P14, P46: stations of two regions, 80 km apart at most, each with its own rate of temperature and
+// its own rain; with half a degree and 30 mm of noise.
+TEST(Climate, RegionsHaveTheirOwnRatesAndBlendBetween) {
+  const Dem dem = make_ridge(267, 60);
+  const test::Folder folder;
+  std::string text = "east,north,altitude,t_year,rain_mm,region\n";
+  std::string one_region = "east,north,altitude,t_year,rain_mm\n";
+  for (int i = 0; i < 40; ++i) {
+    const bool west = i < 20;
+    const double east_m = 600000.0 + (west ? 1000.0 : 59000.0) + 20000.0 * ((7 * i) % 20) / 20.0;
+    const double north_m = 5233000.0 + 16000.0 * (i % 20) / 20.0;
+    const double altitude_m = 400.0 + 1800.0 * ((11 * i) % 20) / 20.0;
+    const double noise = std::sin(2.7 * i) * std::cos(1.3 * i * i);
+    const double year_c =
+        (west ? 12.0 - 4e-3 * altitude_m : 15.0 - 7e-3 * altitude_m) + 0.5 * noise;
+    const double rain =
+        (west ? 600.0 + 0.3 * altitude_m : 1500.0 + 0.05 * altitude_m) + 30.0 * noise;
+    const std::string row =
+        fmt::format("{},{},{},{},{}", east_m, north_m, altitude_m, year_c, rain);
+    text += row + (west ? ",west\n" : ",east\n");
+    one_region += row + "\n";
+  }
+  const Climate climate =
+      make_climate(dem, {.stations = folder.write("s.csv", text), .upslope = {.strength = 0.0}},
+                   synthetic, silent_progress());
+  const auto lapse = [](const PlaceClimate& column) {
+    double sum = 0.0;
+    for (const double month : column.lapse_k_per_km) sum += month / 12.0;
+    return sum;
+  };
+  const PlaceClimate west = climate.at(35, 30);
+  const PlaceClimate east = climate.at(230, 30);
+  EXPECT_NEAR(lapse(west), 4.0, 0.25);
+  EXPECT_NEAR(lapse(east), 7.0, 0.25);
+  EXPECT_NEAR(rain_mm(west, 2000.0) - rain_mm(west, 1000.0), 300.0, 40.0);
+  EXPECT_NEAR(rain_mm(east, 2000.0) - rain_mm(east, 1000.0), 50.0, 40.0);
+  EXPECT_NEAR(rain_mm(west, 1000.0), 900.0, 60.0);
+  EXPECT_NEAR(rain_mm(east, 1000.0), 1550.0, 60.0);
+  // Between them without a step: 2 K and 650 mm over some 20 km, cells of 300 m.
+  for (int x = 1; x < dem.width(); ++x) {
+    const PlaceClimate a = climate.at(x - 1, 30);
+    const PlaceClimate b = climate.at(x, 30);
+    EXPECT_LT(std::abs(monthly_c(b, 2000.0)[6] - monthly_c(a, 2000.0)[6]), 0.2) << x;
+    EXPECT_LT(std::abs(rain_mm(b, 1000.0) - rain_mm(a, 1000.0)), 40.0) << x;
+  }
+  EXPECT_THAT(join(climate.sources),
+              AllOf(HasSubstr("region \"west\": 20 stations"), HasSubstr("region \"east\"")));
+  // Without the column both get one rate between.
+  const PlaceClimate mixed = make_climate(dem, {.stations = folder.write("m.csv", one_region)},
+                                          synthetic, silent_progress())
+                                 .at(35, 30);
+  EXPECT_GT(lapse(mixed), 4.5);
+  EXPECT_LT(lapse(mixed), 6.5);
+}
+
 // The rain of dry places was measured in the lee of their ranges.
 TEST(Climate, DryPlacesKeepTheirRainOnMapsOfAnySize) {
   const auto dry = [](glm::dvec2 lonlat) {
