@@ -21,7 +21,6 @@
 #include "base/text/json.h"
 #include "base/text/text_encoding.h"
 #include "renderer/image/image_io.h"
-#include "terrain/climate/stations.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/layer_inputs.h"
@@ -302,27 +301,15 @@ void check_options(const LayersFitOptions& options) {
   if (!options.from.legend.empty()) read_legend(options.from.legend);  // refuses what is none
 }
 
-std::vector<std::string> inputs_of(const LayersFitOptions& options, const Dem& dem) {
+std::vector<std::string> inputs_of(const LayersFitOptions& options) {
   if (!options.inputs.empty()) {
     for (const std::string& name : options.inputs) require_layer_input(name, "--inputs");
     return options.inputs;
   }
-  std::vector<std::string> names = {"altitude", "slope"};
-  // Only inputs that somebody measured: the computed climate follows from altitude and adds nothing
-  // within one region.
-  StationTable stations;
-  if (!options.climate.stations.empty())
-    stations = read_stations(options.climate.stations, dem.crs, silent_progress());
-  if (!options.climate.files.temperature.empty() || stations.has_temperature())
-    names.emplace_back("temperature");
-  if (!options.climate.files.rain.empty() || stations.has_rain()) names.emplace_back("rain");
-  names.emplace_back("radiation");
-  if (options.model == "product") {
-    // A product of functions up to 1 can only lower coverage: more inputs gain nothing there.
-    names.insert(names.end(), {"north", "east"});
-    if (names.size() > 5) names.resize(5);
-    return names;
-  }
+  // The climate lets a file travel to other altitudes and latitudes.
+  std::vector<std::string> names = {"altitude", "slope", "temperature", "rain", "radiation"};
+  // A product of functions up to 1 can only lower coverage: more inputs gain nothing there.
+  if (options.model == "product") return names;
   names.insert(names.end(), {"north", "east", "relief_180", "relief_750", "relief_1800",
                              "relief_4000", "above_valley", "log_catchment", "sky_view"});
   // Lakes are flat; in pictures they are dark and blue.
@@ -389,7 +376,7 @@ int run(const LayersFitOptions& options) {
   FitFindings findings;
   const FitGround ground = read_fit_ground(options.from, findings, progress);
   KnownGround known = find_ground_classes(options.from, ground, findings, progress);
-  known.input_names = inputs_of(options, ground.dem);
+  known.input_names = inputs_of(options);
   const LayerClimateGrids climate =
       climate_of(options.climate, ground.dem, known.input_names, progress);
   for (const std::string& source : climate.sources) findings.note(source);

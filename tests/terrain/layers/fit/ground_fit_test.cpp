@@ -43,6 +43,45 @@ TEST(FitGround, ReproducesColoursOfGroundNotSeen) {
   EXPECT_LT(fitted.differences[2].mean, 4.0);  // of 32 × 32 cells
 }
 
+// P13: a class that grows where each of the five inputs allows it. Fitted to every other column and
+// measured on the rest, the error rises if any of the five is left out.
+TEST(FitGround, EachOfTheFiveInputsLowersTheError) {
+  constexpr int size = 96;
+  KnownGround all;
+  all.cell_m = 30.0;
+  all.altitude_m = Grid<float>(size, size, 1000.0F);
+  all.input_names = {"altitude", "slope", "temperature", "rain", "radiation"};
+  all.inputs.assign(5, Grid<float>(size, size));
+  all.classes = {{"meadow", LandCoverClass::pasture, 0x808080},
+                 {"wood", LandCoverClass::forest, 0x808080}};
+  Grid<std::uint8_t> learn(size, size, 0);
+  std::vector<std::uint8_t> rest;
+  for (int y = 0; y != size; ++y)
+    for (int x = 0; x != size; ++x) {
+      double grows = 1.0;
+      for (int i = 0; i != 5; ++i) {
+        const double value = random_normal(41, x, y, i);
+        all.inputs[static_cast<std::size_t>(i)](x, y) = static_cast<float>(value);
+        grows /= 1.0 + std::exp(-3.0 * (value + 1.0));
+      }
+      all.labels.push_back(random_uniform(42, x, y) < grows ? 1 : 0);
+      learn(x, y) = x % 2 == 0 ? 1 : 0;
+      rest.push_back(x % 2 == 0 ? no_class : all.labels.back());
+    }
+  const auto error = [&](const KnownGround& ground) {
+    const GroundFit fit = fit_ground(ground, {}, &learn);
+    return 1.0 - measure_classes(predict_ground(ground, fit).classes, rest).mean_auc;
+  };
+  const double with_all = error(all);
+  EXPECT_LT(with_all, 0.17);
+  for (std::size_t i = 0; i != 5; ++i) {
+    KnownGround without = all;
+    without.input_names.erase(without.input_names.begin() + static_cast<std::ptrdiff_t>(i));
+    without.inputs.erase(without.inputs.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_GT(error(without), with_all + 0.01) << all.input_names[i];
+  }
+}
+
 // The reported quality is that of the file, whatever the functions are.
 TEST(FitGround, FileEvaluatesToWhatIsPredicted) {
   const KnownGround ground = known_ground(96);

@@ -64,6 +64,10 @@ TEST_F(LayersFitCommand, LearnsALandCoverMap) {
   ASSERT_THAT(fit(by_map()), Ends(0));
   const SurfaceLayers layers = read_surface_layers(path("out.layers.toml"));
   ASSERT_EQ(layers.layers.size(), 2U);
+  // P13: the five inputs, without being asked for.
+  std::vector<std::string> names;
+  for (const LayerInput& input : layers.inputs) names.push_back(input.name);
+  EXPECT_THAT(names, testing::ElementsAre("altitude", "slope", "temperature", "rain", "radiation"));
   // The larger is the ground that the other is painted on.
   EXPECT_EQ(layers.ground_painted_as, LandCoverClass::pasture);
   EXPECT_EQ(layers.layers[1].painted_as, LandCoverClass::rock);
