@@ -108,6 +108,7 @@ struct SceneClimate {       // see terrain/climate/climate.h; default: the clima
   double temperature_factor = ClimateParameters{}.temperature_factor;
   std::string rain;  // raster of 12 months or of the year; empty: none
   double rain_factor = ClimateParameters{}.rain_factor;
+  double sheltered = ClimateParameters{}.sheltered;
   double warmer_k = ClimateParameters{}.warmer_k;
   double wetter = ClimateParameters{}.wetter;
   double clearings = 0.0;       // -1…1, of the class rules

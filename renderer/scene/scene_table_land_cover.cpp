@@ -254,6 +254,12 @@ std::vector<SceneSection> make_climate_sections() {
             .range = {0.05, 20},
             .meaning = "Factor on the rain of any source: 0.5 for ground half as wet, with more "
                        "steppe and less forest."},
+           {.name = "sheltered",
+            .field = AT(climate.sheltered),
+            .range = {0, 1},
+            .meaning = "1 for ground behind ranges or far from the sea that the built-in table of "
+                       "dry places does not know: rain and evaporation are those of the dry places "
+                       "around."},
            {.name = "warmer_k",
             .field = AT(climate.warmer_k),
             .range = {-30, 30},

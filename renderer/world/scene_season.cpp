@@ -52,6 +52,7 @@ Climate make_scene_climate(const LoadedScene& loaded, const Dem& dem, Progress& 
   parameters.temperature_factor = settings.temperature_factor;
   parameters.rain = raster(settings.rain);
   parameters.rain_factor = settings.rain_factor;
+  parameters.sheltered = settings.sheltered;
   parameters.warmer_k = settings.warmer_k;
   parameters.wetter = settings.wetter;
   parameters.lapse_k_per_km = settings.lapse_k_per_km;

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "terrain/climate/default_climate.h"
 #include "terrain/climate/station_regions.h"
 #include "terrain/climate/stations.h"
 #include "terrain/io/block_means.h"
@@ -73,6 +74,7 @@ class Maker {
             p_.temperature_factor, "0.001 … 1000");
     require(p_.rain_factor >= 0.05 && p_.rain_factor <= 20.0, "rain_factor", p_.rain_factor,
             "0.05 … 20");
+    require(p_.sheltered >= 0.0 && p_.sheltered <= 1.0, "sheltered", p_.sheltered, "0 … 1");
     require(std::abs(p_.warmer_k) <= 30.0, "warmer_k", p_.warmer_k, "-30 … 30 K");
     require(p_.wetter >= -0.95 && p_.wetter <= 10.0, "wetter", p_.wetter, "-0.95 … 10");
     if (p_.lapse_k_per_km)
@@ -104,6 +106,7 @@ class Maker {
         climate_.nodes(x, y) = fallback(
             {position.longitude_deg.at(cell.x, cell.y), position.latitude_deg.at(cell.x, cell.y)});
       }
+    if (p_.sheltered > 0.0) shelter_nodes();
     if (!p_.stations.empty() &&
         station_regions(stations().stations, [](const Station&) { return true; }).size() > 1)
       refine_nodes();
@@ -168,6 +171,25 @@ class Maker {
             static_cast<double>(y) / (of.height() - 1) * (climate_.position.height - 1)};
   }
   glm::dvec2 cell_of_node(int x, int y) const { return cell_of_node(x, y, climate_.nodes); }
+
+  // Moves the nodes into dry country.
+  void shelter_nodes() {
+    constexpr double valley_share = 0.1;  // of the ground, below its floor
+    std::vector<float> known;
+    for (const float z : ground_m_)
+      if (!std::isnan(z)) known.push_back(z);
+    const double floor_m =
+        known.empty() ? 0.0 : static_cast<double>(value_at_share(std::move(known), valley_share));
+    const MapPosition& position = climate_.position;
+    for (int y = 0; y < climate_.nodes.height(); ++y)
+      for (int x = 0; x < climate_.nodes.width(); ++x) {
+        const glm::dvec2 cell = cell_of_node(x, y);
+        PlaceClimate& node = climate_.nodes(x, y);
+        node =
+            sheltered_climate(built_in_dry_field(), node, position.longitude_deg.at(cell.x, cell.y),
+                              position.latitude_deg.at(cell.x, cell.y), floor_m, p_.sheltered);
+      }
+  }
 
   // The same climate on nodes that are close enough for regions.
   void refine_nodes() {

@@ -27,6 +27,9 @@ struct ClimateParameters {
   double temperature_factor = 1.0;  // 0.001…1000: °C (or K) per unit of the raster; .1 for tenths
   std::optional<RasterSource> rain = {};  // 12 bands of months, or one of the year, mm
   double rain_factor = 1.0;               // 0.05…20: on the rain of any source
+  // 0…1: how far the ground lies behind ranges or far from the sea, where the built-in tables do
+  // not know it; see sheltered_climate. Rain of stations or rasters stays as it is.
+  double sheltered = 0.0;
   // Another time, relative to all of these: an ice age, or a warmer century.
   double warmer_k = 0.0;  // -30…30, in all months
   double wetter = 0.0;    // -0.95…10: share of the rain that falls in addition

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <tuple>
 #include <utility>
 
+#include "base/error.h"
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "base/matrix/matrix.h"
 #include "base/text/embedded.h"
 #include "terrain/climate/map_position.h"
 #include "terrain/climate/rule_climate.h"
@@ -19,15 +22,19 @@ namespace {
 constexpr double min_dry_air = 0.05;  // on coasts with fog too, whose air is hardly dry
 constexpr double max_dry_air = 3.0;
 
-// The dry air with which plants could use a place's evaporation at its floor.
-double dry_air_of(const DryPlace& place, PlaceClimate climate) {
+// The dry air with which plants could use this much water at an altitude.
+double dry_air_of(double evaporation_mm, double altitude_m, PlaceClimate climate) {
   climate.dry_air = 0.0;
-  const double mild_mm = plant_water_demand_mm(climate, place.floor_m);
+  const double mild_mm = plant_water_demand_mm(climate, altitude_m);
   climate.dry_air = 1.0;
-  const double dry_mm = plant_water_demand_mm(climate, place.floor_m);
-  return std::clamp((place.evaporation_mm - mild_mm) / std::max(1.0, dry_mm - mild_mm), min_dry_air,
+  const double dry_mm = plant_water_demand_mm(climate, altitude_m);
+  return std::clamp((evaporation_mm - mild_mm) / std::max(1.0, dry_mm - mild_mm), min_dry_air,
                     max_dry_air);
 }
+
+// Annual evaporation of well-watered ground in dry country: regressed on the table of dry places,
+// good to a fifth like its own.
+double dry_evaporation_mm(double year_c) { return 970.0 + 39.0 * year_c; }
 
 }  // namespace
 
@@ -77,7 +84,7 @@ PlaceClimate dried_climate(const DryCountry& country, const PlaceClimate& climat
     const double weight = smoothstep(2.0 * (1.0 - way_km / place.radius_km));
     if (weight <= 0.0) continue;
     weights += weight;
-    dry_air += weight * dry_air_of(place, climate);
+    dry_air += weight * dry_air_of(place.evaporation_mm, place.floor_m, climate);
     const double drier =
         exact::log(std::min(1.0, place.rain_mm / std::max(1.0, rain_mm(climate, place.floor_m))));
     // Rain is linear between whole kilometres: all of the effect up to the first above the floor.
@@ -97,6 +104,81 @@ PlaceClimate dried_climate(const DryCountry& country, const PlaceClimate& climat
   dried.sheltered = part * weights;
   for (std::size_t km = 0; km < log_rain.size(); ++km)
     dried.rain_mm_at_km[km] *= exact::exp(part * log_rain[km]);
+  return dried;
+}
+
+namespace {
+
+constexpr double dry_floor_mm = 10.0;       // makes deserts with 1 and with 5 mm similar
+constexpr double dry_reach_km = 150.0;      // covariance 1 / (1 + d² / 2L²)
+constexpr double dry_own = 0.15;            // variance of a place's own, as a share of the field's
+constexpr double dry_station_share = 0.35;  // of rain in evaporation, up to which stations are dry
+constexpr double coldest_dry_c = -5.0;      // mean of the year: ice sheets are no dry country
+
+double dry_covariance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return 1.0 / (1.0 + squared_chord_km2(a, b) / (2.0 * square(dry_reach_km)));
+}
+
+}  // namespace
+
+DryField make_dry_field(const std::vector<DryPlace>& places,
+                        const std::vector<ClimateStation>& stations) {
+  DryField field;
+  std::vector<double> logs;
+  const auto add = [&](double longitude_deg, double latitude_deg, double mm) {
+    field.positions.push_back(earth_position_km(longitude_deg, latitude_deg));
+    logs.push_back(exact::log(mm + dry_floor_mm));
+  };
+  for (const DryPlace& place : places) add(place.longitude_deg, place.latitude_deg, place.rain_mm);
+  for (const ClimateStation& station : stations) {
+    double year_c = 0.0;
+    for (const double season_c : station.season_c) year_c += 0.25 * season_c;
+    if (station.rain_mm >= 0.0 && year_c > coldest_dry_c &&
+        station.rain_mm < dry_station_share * dry_evaporation_mm(year_c))
+      add(station.longitude_deg, station.latitude_deg, station.rain_mm);
+  }
+  const std::size_t n = logs.size();
+  Matrix covariance(n, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j <= i; ++j)
+      covariance(i, j) = dry_covariance(field.positions[i], field.positions[j]);
+    covariance(i, i) += dry_own;
+  }
+  const std::optional<Cholesky> factors = Cholesky::of(std::move(covariance));
+  if (!factors) throw Error(ErrorKind::bug, "dry country", "its covariance is not positive");
+  // The mean by generalized least squares, in which clusters of places count less.
+  const std::vector<double> ones = factors->solve(std::vector<double>(n, 1.0));
+  double sum = 0.0;
+  double weight = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    sum += ones[i] * logs[i];
+    weight += ones[i];
+  }
+  field.mean = sum / weight;
+  for (double& value : logs) value -= field.mean;
+  field.weights = factors->solve(logs);
+  return field;
+}
+
+const DryField& built_in_dry_field() {
+  static const DryField field = make_dry_field(read_dry_places(), read_climate_stations());
+  return field;
+}
+
+PlaceClimate sheltered_climate(const DryField& field, const PlaceClimate& climate,
+                               double longitude_deg, double latitude_deg, double floor_m,
+                               double sheltered) {
+  const std::array<double, 3> here = earth_position_km(longitude_deg, latitude_deg);
+  double log_mm = field.mean;
+  for (std::size_t i = 0; i < field.positions.size(); ++i)
+    log_mm += field.weights[i] * dry_covariance(here, field.positions[i]);
+  const double dry_mm = std::max(1.0, exact::exp(log_mm) - dry_floor_mm);
+  PlaceClimate dried = climate;
+  for (double& mm : dried.rain_mm_at_km)
+    if (mm > dry_mm) mm *= exact::exp(sheltered * exact::log(dry_mm / mm));
+  const double evaporation_mm = dry_evaporation_mm(year_mean(monthly_c(climate, floor_m)));
+  dried.dry_air += sheltered * (dry_air_of(evaporation_mm, floor_m, climate) - climate.dry_air);
+  dried.sheltered += sheltered * (1.0 - climate.sheltered);
   return dried;
 }
 

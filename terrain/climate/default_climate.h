@@ -78,4 +78,23 @@ DryCountry make_dry_country(std::vector<DryPlace> places);
 PlaceClimate dried_climate(const DryCountry& country, const PlaceClimate& climate,
                            double longitude_deg, double latitude_deg);
 
+// The rain of dry country as its places and the dry ones among the stations tell it to each other,
+// apart from wet ones: for a lee or a basin that the table does not list. Simple kriging of ln(mm +
+// 10); leave-one-out, half of the places are told to a factor of 1.3.
+struct DryField {
+  std::vector<std::array<double, 3>> positions;  // km from the Earth's centre
+  double mean = 0.0;                             // of ln(mm + 10)
+  std::vector<double> weights;
+};
+DryField make_dry_field(const std::vector<DryPlace>& places,
+                        const std::vector<ClimateStation>& stations);
+const DryField& built_in_dry_field();
+
+// A climate moved into dry country by `sheltered`, 0…1, where the valleys are at floor_m: to the
+// rain of the field, if that is less than its own, and to the evaporation that goes with the warmth
+// of the floor.
+PlaceClimate sheltered_climate(const DryField& field, const PlaceClimate& climate,
+                               double longitude_deg, double latitude_deg, double floor_m,
+                               double sheltered);
+
 }  // namespace belvedere

@@ -10,14 +10,14 @@
 namespace belvedere {
 namespace {
 
-constexpr double min_relief_m = 100.0;  // of a region's stations; less gives no rate
+constexpr double min_region_relief_m = 100.0;  // of a region's stations; less gives no rate
 
 bool has_own_rates(const std::vector<Station>& stations) {
   if (stations.size() < static_cast<std::size_t>(fewest_stations)) return false;
   const auto [low, high] = std::minmax_element(
       stations.begin(), stations.end(),
       [](const Station& a, const Station& b) { return a.altitude_m < b.altitude_m; });
-  return high->altitude_m - low->altitude_m >= min_relief_m;
+  return high->altitude_m - low->altitude_m >= min_region_relief_m;
 }
 
 }  // namespace

@@ -278,6 +278,17 @@ TEST(Climate, DryPlacesKeepTheirRainOnMapsOfAnySize) {
         << x;
 }
 
+// Dry country that the tables do not know: the scene says so, and the wind does not dry it twice.
+TEST(Climate, ShelteredGroundHasTheRainOfTheDryPlacesAround) {
+  const Dem dem = make_ridge(200, 60);
+  const Climate climate = make_climate(dem, {.sheltered = 1.0}, synthetic, silent_progress());
+  const double mm = rain_mm(climate.at(100, 30), 1000.0);
+  EXPECT_LT(mm, 600.0);
+  EXPECT_GT(climate.at(100, 30).dry_air, 0.0);
+  for (const int x : {20, 80, 120, 180})
+    EXPECT_NEAR(rain_mm(climate.at(x, 30), 1000.0), mm, 0.1 * mm) << x;
+}
+
 TEST(Climate, ARasterOfMonthsIsMetAtItsOwnAltitudes) {
   // A raster with the exact values of another climate on this ground: 6 K/km, in tenths of a
   // kelvin.

@@ -212,6 +212,47 @@ TEST(DryPlaces, TheBuiltInOnesAreDry) {
   }
 }
 
+// Each row by the rest, without those that reach it: rain to a factor of two, over a range of one
+// to a hundred.
+TEST(DryField, RowsAreToldByTheOthers) {
+  const std::vector<DryPlace> all = read_dry_places();
+  const std::vector<ClimateStation> stations = read_climate_stations();
+  double square_log = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < all.size(); i += 7, ++count) {
+    std::vector<DryPlace> others = all;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    PlaceClimate wet = mild();
+    wet.rain_mm_at_km.fill(3000.0);
+    const PlaceClimate told =
+        sheltered_climate(make_dry_field(others, stations), wet, all[i].longitude_deg,
+                          all[i].latitude_deg, all[i].floor_m, 1.0);
+    square_log +=
+        square(std::log((rain_mm(told, all[i].floor_m) + 10.0) / (all[i].rain_mm + 10.0)));
+  }
+  RecordProperty("rms", std::to_string(std::sqrt(square_log / count)));
+  EXPECT_LT(std::sqrt(square_log / count), std::log(2.0));
+}
+
+TEST(DryField, ShelterOfNoneChangesNothingAndHalfIsBetween) {
+  const PlaceClimate none = sheltered_climate(built_in_dry_field(), mild(), 77.6, 34.1, 500.0, 0.0);
+  EXPECT_EQ(none.rain_mm_at_km, mild().rain_mm_at_km);
+  EXPECT_EQ(none.dry_air, 0.0);
+  const PlaceClimate half = sheltered_climate(built_in_dry_field(), mild(), 77.6, 34.1, 500.0, 0.5);
+  const PlaceClimate all = sheltered_climate(built_in_dry_field(), mild(), 77.6, 34.1, 500.0, 1.0);
+  EXPECT_NEAR(rain_mm(all, 3000.0), 110.0, 40.0) << "Ladakh";
+  EXPECT_NEAR(rain_mm(half, 3000.0), std::sqrt(800.0 * rain_mm(all, 3000.0)), 1e-6);
+  EXPECT_NEAR(half.dry_air, 0.5 * all.dry_air, 1e-12);
+  EXPECT_EQ(half.sheltered, 0.5);
+  // 7.5 °C at its floor.
+  EXPECT_NEAR(plant_water_demand_mm(all, 500.0), 970.0 + 39.0 * 7.5, 1.0);
+  // Ground drier than its neighbours stays as dry.
+  PlaceClimate desert = mild();
+  desert.rain_mm_at_km.fill(20.0);
+  EXPECT_EQ(sheltered_climate(built_in_dry_field(), desert, 77.6, 34.1, 500.0, 1.0).rain_mm_at_km,
+            desert.rain_mm_at_km);
+}
+
 TEST(DryPlaces, BadRowsNameTheirLine) {
   const auto message_of = [](const std::string& text) {
     return test::message_of(ErrorKind::usage, [&] { dry_places_from_toml(text, "d.toml"); });

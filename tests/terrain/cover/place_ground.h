@@ -50,11 +50,12 @@ inline Dem ground_at(const MountainPlace& place) {
   return dem;
 }
 
-// Land cover by the built-in rules and climate.
-inline Grid<LandCoverClass> cover_at(const Dem& dem) {
-  const Climate climate = make_climate(
-      dem, {}, [](glm::dvec2 lonlat) { return default_climate(lonlat.x, lonlat.y); },
-      silent_progress());
+// Land cover by the built-in rules and climate, or another one.
+inline Grid<LandCoverClass> cover_at(
+    const Dem& dem, const DefaultClimate& at = [](glm::dvec2 lonlat) {
+      return default_climate(lonlat.x, lonlat.y);
+    }) {
+  const Climate climate = make_climate(dem, {}, at, silent_progress());
   ClassRuleParameters parameters;
   parameters.seed = 7;
   parameters.climate = make_map_climate(dem, climate, {});
