@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "terrain/shape/sea.h"
+#include "tests/terrain/cover/class_rules_ground.h"
 #include "tests/terrain/cover/place_ground.h"
 
 // Land cover at places whose vegetation is known (docs/climate.md, "Dry country").
@@ -148,6 +151,28 @@ TEST(RulePlaces, NorthOfTheKarakoramNoFirsStandOnTheFloors) {
   const Cover cover = low_cover({"Shaksgam", 36.10, 76.40, 4000, 5200});
   EXPECT_LT(cover.trees, 0.01);
   EXPECT_LT(cover.green, 0.05);
+}
+
+// The Dead Sea at -430 m, and beside it a dry basin around -80 m that reaches the edge of the data.
+TEST(RulePlaces, LakesBelowTheSeaStayLakesAndDryBasinsDry) {
+  const Dem dem = test::ground(200, [](double east_m, double north_m) {
+    return east_m < 0.0
+               ? -430.0 + std::max(0.0, 0.2 * (std::hypot(east_m + 1500.0, north_m) - 600.0))
+               : -80.0 + 0.015 * std::abs(east_m - 1500.0) + 0.004 * std::abs(north_m);
+  });
+  EXPECT_TRUE(find_sea(dem).empty());
+  ClassRuleParameters parameters;
+  parameters.seed = 7;
+  parameters.climate = alpine_climate();
+  for (Grid<float>& level : parameters.climate.moisture) level(0, 0) = 0.05F;
+  const Grid<LandCoverClass> classes =
+      apply_class_rules(read_class_rules("life_zones"), parameters, dem, silent_progress())
+          .classes.cells;
+  EXPECT_EQ(classes(50, 100), water);
+  EXPECT_EQ(classes(40, 110), water);
+  for (const auto [x, y] : test::cells({110, 0, 200, 200})) {
+    ASSERT_NE(classes(x, y), water) << x << ' ' << y;
+  }
 }
 
 struct WetPlace {
