@@ -259,7 +259,7 @@ class Maker {
           named(region, regions.size() == 1), year.back().k_per_km, year.back().low_k_per_km,
           year.back().high_k_per_km, year.back().left_out_k));
     }
-    // Two regions meet in the mean of their temperatures, at any altitude.
+    // Two regions have the average of their temperatures, at any altitude.
     const auto blended = [](const std::vector<LapseRate>& rates, const std::vector<double>& weights,
                             double LapseRate::*value) {
       double sum = 0.0;
