@@ -434,6 +434,7 @@ TEST(SceneFile, ScenesOfTheProgramAreRead) {
   EXPECT_THAT(titles,
               testing::UnorderedElementsAre(
                   "Glacier National Park, Selkirks", "Karwendel", "Karwendel in the evening",
+                  "Karwendel, an ice-age summer", "Karwendel, cleared of its forest",
                   "Karwendel after Segantini", "Karwendel: roads, railways and ways",
                   "Ötztal Alps: a synthetic winter map", "Lolo Peak", "Mountains after Monet",
                   "Mount Rainier", "Zion Canyon", "Ötztal Alps"));
