@@ -42,8 +42,8 @@ LayerDrawing plan_drawing(const LayerProgram& program, const LayerGround& ground
       const int x0 = first(p % sample_patches, dem.width(), width);
       const int y0 = first(p / sample_patches, dem.height(), height);
       const PixelRect cells{x0, y0, x0 + width, y0 + height};
-      const auto shares = shares_of(program, layer_coverage(program, layer_inputs(ground, cells),
-                                                            dem.transform, cells, parameters.seed));
+      const auto shares =
+          shares_of(program, evaluate_layers(program, ground, 1, cells, parameters.seed).coverage);
       for (std::size_t k = 0; k < all.size(); ++k)
         std::copy(shares[k].begin(), shares[k].end(), all[k].row(p * height));
     }
@@ -89,9 +89,8 @@ Counts apply_tile(const LayerProgram& program, const LayerGround& ground,
                   const LayerDrawing& drawing, const LayerApplyParameters& parameters,
                   const PixelRect& cells, LayerStrip& strip) {
   const GeoTransform& transform = ground.dem->transform;
-  const std::vector<Grid<float>> inputs = layer_inputs(ground, cells);
-  const std::vector<Grid<float>> coverage =
-      layer_coverage(program, inputs, transform, cells, parameters.seed);
+  const auto [inputs, coverage, altitude_m] =
+      evaluate_layers(program, ground, 1, cells, parameters.seed);
   const Grid<LandCoverClass> classes =
       draw_classes(drawing, shares_of(program, coverage), transform, cells);
   put(classes, cells.x0, strip.classes);

@@ -5,10 +5,14 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string_view>
+#include <variant>
 
 #include "base/error.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/random.h"
+#include "terrain/cover/ground_variables.h"
 #include "terrain/layers/layer_noise.h"
 
 namespace belvedere {
@@ -30,11 +34,12 @@ float exp_of(float x) {
          std::bit_cast<float>(static_cast<std::uint32_t>(static_cast<int>(whole) + 127) << 23U);
 }
 
-// One field of noise for siblings of equal scale and octaves.
+// One field of noise for siblings of equal scale, octaves and gain.
 struct NoiseField {
   int parent;
   double scale_m;
   int octaves;
+  double gain;
   LayerNoiseRows rows;
   std::vector<float> line;
   bool filled = false;  // for the current row
@@ -46,18 +51,38 @@ struct Places {
   std::vector<float> part;
 };
 
-// The evaluation of one rectangle, row by row.
+// Inputs that follow from the gradient of the ground.
+constexpr std::array<std::string_view, 4> tilted_names = {"slope", "north", "east", "south"};
+
+double mean_cell(const GeoTransform& transform) {
+  return 0.5 * (transform.cell_x + transform.cell_y);
+}
+
+// Whether a layer has bumps that are visible at cells of this size.
+bool is_raised(const LayerProgram& program, std::size_t layer, double cell_m) {
+  const SurfaceLayer& of = program.layers.layers[layer];
+  return program.paints[layer] && of.roughness_m > 0.0 && of.roughness_scale_m > cell_m;
+}
+
+double tan_of_degrees(double degrees) {
+  const exact::Turn turn = exact::turn(to_radians(degrees));
+  return turn.sine / turn.cosine;
+}
+
+// The evaluation of one rectangle.
 class Evaluation {
  public:
   Evaluation(const LayerProgram& program, const std::vector<Grid<float>>& inputs,
              const GeoTransform& transform, const PixelRect& cells, std::uint64_t seed,
-             Grid<float>* height_m)
+             RaisedGround* raised)
       : program_(program),
         layers_(program.layers),
-        inputs_(inputs),
+        transform_(transform),
         cells_(cells),
+        seed_(seed),
         width_(static_cast<std::size_t>(cells.width())),
-        height_(height_m) {
+        raised_(raised) {
+    for (const Grid<float>& input : inputs) inputs_.push_back(&input);
     const std::size_t count = layers_.layers.size();
     field_of_.assign(count, -1);
     for (std::size_t k = 0; k < count; ++k) {
@@ -65,7 +90,7 @@ class Evaluation {
       if (layer.noise.amplitude == 0.0) continue;
       const auto same = std::find_if(fields_.begin(), fields_.end(), [&](const NoiseField& f) {
         return f.parent == layer.parent && f.scale_m == layer.noise.scale_m &&
-               f.octaves == layer.noise.octaves;
+               f.octaves == layer.noise.octaves && f.gain == layer.noise.gain;
       });
       field_of_[k] = static_cast<int>(same - fields_.begin());
       if (same != fields_.end()) continue;
@@ -75,24 +100,12 @@ class Evaluation {
       const std::uint64_t own =
           stream_seed(seed, Stream::class_noise,
                       seed_of_name(parent) ^ std::bit_cast<std::uint64_t>(layer.noise.scale_m));
-      fields_.push_back({layer.parent, layer.noise.scale_m, layer.noise.octaves,
+      fields_.push_back({layer.parent, layer.noise.scale_m, layer.noise.octaves, layer.noise.gain,
                          LayerNoiseRows(layer.noise, own, transform, cells),
                          std::vector<float>(width_)});
     }
-    if (height_ != nullptr)
-      for (const SurfaceLayer& layer : layers_.layers) {
-        bumps_.emplace_back(bump_noise(layer.roughness_scale_m), bump_seed(layer, seed), transform,
-                            cells);
-      }
-    for (std::size_t i = 0; i < layers_.inputs.size(); ++i)
-      if (layers_.inputs[i].name == "altitude") altitude_ = static_cast<int>(i);
-    if (std::any_of(layers_.layers.begin(), layers_.layers.end(),
-                    [](const auto& l) { return !l.when.empty(); })) {
-      std::vector<const Grid<float>*> read;
-      for (const int i : program.input_of_slot)
-        read.push_back(i < 0 ? nullptr : &inputs[static_cast<std::size_t>(i)]);
-      when_ = evaluate_layer_expressions(program.expressions, read, transform, cells, seed);
-    }
+    if (raised_ != nullptr) ground_m_ = raised_->height_m;
+    evaluate_expressions(0);
     positions_.resize(layers_.inputs.size());
     used_.assign(layers_.inputs.size(), false);
     for (const std::vector<int>& tables : program.table_of)
@@ -106,26 +119,124 @@ class Evaluation {
   }
 
   std::vector<Grid<float>> run() {
-    for (int y = 0; y < cells_.height(); ++y) {
-      for (NoiseField& field : fields_) field.filled = false;
-      for (std::size_t i = 0; i < positions_.size(); ++i)
-        if (used_[i]) find_positions(i, y);
-      if (layers_.model == LayerModel::additive) additive_row(y);
-      for (std::size_t k = 0; k < layers_.layers.size(); ++k) {
-        if (layers_.model == LayerModel::product) product_row(k, y);
-        if (height_ != nullptr && program_.paints[k] && layers_.layers[k].roughness_m > 0.0)
-          raise_row(k, y);
-      }
+    const std::size_t count = layers_.layers.size();
+    if (layers_.model == LayerModel::additive) {
+      rows([&](int y) { additive_row(y); });
+      for (std::size_t k = 0; k < count; ++k)
+        if (raises(k)) raise(k);
+      return std::move(coverage_);
+    }
+    // Row by row up to the next layer that raises the ground.
+    for (std::size_t begin = 0, end = 0; begin != count; begin = end) {
+      while (end != count && !raises(end)) ++end;
+      const bool up = end != count;
+      if (up) ++end;
+      rows([&](int y) {
+        for (std::size_t k = begin; k != end; ++k) product_row(k, y);
+      });
+      if (!up) continue;
+      raise(end - 1);
+      if (end != count) hand_on(end);
     }
     return std::move(coverage_);
   }
 
  private:
+  template <class OfRow>
+  void rows(OfRow&& of_row) {
+    for (int y = 0; y < cells_.height(); ++y) {
+      for (NoiseField& field : fields_) field.filled = false;
+      for (std::size_t i = 0; i < positions_.size(); ++i)
+        if (used_[i]) find_positions(i, y);
+      of_row(y);
+    }
+  }
+
+  // The conditions of the layers from `first` on, with the current inputs.
+  void evaluate_expressions(std::size_t first) {
+    if (std::none_of(layers_.layers.begin() + static_cast<std::ptrdiff_t>(first),
+                     layers_.layers.end(), [](const auto& l) { return !l.when.empty(); }))
+      return;
+    std::vector<const Grid<float>*> read;
+    for (const int i : program_.input_of_slot)
+      read.push_back(i < 0 ? nullptr : inputs_[static_cast<std::size_t>(i)]);
+    when_ =
+        evaluate_layer_expressions(program_.expressions, read, transform_, cells_, seed_, first);
+  }
+
+  bool raises(std::size_t k) const {
+    return raised_ != nullptr && is_raised(program_, k, mean_cell(transform_));
+  }
+
+  void raise(std::size_t k) {
+    const SurfaceLayer& layer = layers_.layers[k];
+    LayerNoiseRows bumps(bump_noise(layer.roughness_scale_m), bump_seed(layer, seed_), transform_,
+                         cells_);
+    std::vector<float> line(width_);
+    const auto roughness = static_cast<float>(layer.roughness_m);
+    for (int y = 0; y < cells_.height(); ++y) {
+      bumps.fill(cells_.y0 + y, line.data());
+      const float* c = coverage_[k].row(y);
+      float* height = raised_->height_m.row(y);
+      for (std::size_t x = 0; x < width_; ++x) height[x] += c[x] * roughness * line[x];
+    }
+  }
+
+  // Inputs of the layers from `first` on, from the raised height.
+  void hand_on(std::size_t first) {
+    for (std::size_t i = 0; i < inputs_.size(); ++i)
+      if (program_.inputs[i] == "altitude") inputs_[i] = &raised_->height_m;
+    if (!raised_->slope_north_east.empty()) {
+      tilt();
+      for (std::size_t i = 0; i < inputs_.size(); ++i)
+        for (std::size_t t = 0; t < tilted_names.size(); ++t)
+          if (program_.inputs[i] == tilted_names[t]) inputs_[i] = &tilted_[t];
+    }
+    evaluate_expressions(first);
+  }
+
+  // Slope and exposures of the smooth ground with the slopes of the bumps so far.
+  void tilt() {
+    const Grid<float>& slope = raised_->slope_north_east[0];
+    const Grid<float>& north = raised_->slope_north_east[1];
+    const Grid<float>& east = raised_->slope_north_east[2];
+    tilted_.assign(tilted_names.size(), Grid<float>(cells_.width(), cells_.height()));
+    const auto bump = [&](int x, int y) {
+      return static_cast<double>(raised_->height_m.clamped(x, y) - ground_m_.clamped(x, y));
+    };
+    for (int y = 0; y < cells_.height(); ++y)
+      for (int x = 0; x < cells_.width(); ++x) {
+        const auto change = [&](double ahead, double behind, bool one_sided, double cell) {
+          return (ahead - behind) / (one_sided ? cell : 2.0 * cell);
+        };
+        const double rise_east = change(bump(x + 1, y), bump(x - 1, y),
+                                        x == 0 || x + 1 == cells_.width(), transform_.cell_x);
+        const double rise_north = change(bump(x, y - 1), bump(x, y + 1),
+                                         y == 0 || y + 1 == cells_.height(), transform_.cell_y);
+        std::array<double, 3> facing = {static_cast<double>(slope(x, y)),
+                                        static_cast<double>(north(x, y)),
+                                        static_cast<double>(east(x, y))};
+        if (rise_east != 0.0 || rise_north != 0.0) {
+          // A facing is the fall towards it over the slope, which fades on level ground.
+          const double steep = tan_of_degrees(facing[0]);
+          const double fall_north = facing[1] * (steep + exposure_fade) - rise_north;
+          const double fall_east = facing[2] * (steep + exposure_fade) - rise_east;
+          const double raised = std::sqrt(fall_north * fall_north + fall_east * fall_east);
+          facing = {to_degrees(exact::atan(raised)), fall_north / (raised + exposure_fade),
+                    fall_east / (raised + exposure_fade)};
+        }
+        tilted_[0](x, y) = static_cast<float>(facing[0]);
+        tilted_[1](x, y) = static_cast<float>(facing[1]);
+        tilted_[2](x, y) = static_cast<float>(facing[2]);
+        tilted_[3](x, y) = -tilted_[1](x, y);
+      }
+  }
+
   void find_positions(std::size_t input, int y) {
     const LayerInput& range = layers_.inputs[input];
     const auto low = static_cast<float>(range.low);
     const auto scale = static_cast<float>(256.0 / (range.high - range.low));
-    const float* values = values_of(input, y);
+    const float* values = inputs_[input]->row(y);
     Places& positions = positions_[input];
     for (std::size_t x = 0; x < width_; ++x) {
       const float at = std::clamp((values[x] - low) * scale - 0.5F, 0.F, 255.F);
@@ -133,24 +244,6 @@ class Evaluation {
       positions.sample[x] = static_cast<std::uint8_t>(sample);
       positions.part[x] = at - static_cast<float>(sample);
     }
-  }
-
-  const float* values_of(std::size_t input, int y) const {
-    const bool raised = height_ != nullptr && static_cast<int>(input) == altitude_ &&
-                        layers_.model == LayerModel::product;
-    return raised ? height_->row(y) : inputs_[input].row(y);
-  }
-
-  void raise_row(std::size_t k, int y) {
-    bump_line_.resize(width_);
-    bumps_[k].fill(cells_.y0 + y, bump_line_.data());
-    const auto roughness = static_cast<float>(layers_.layers[k].roughness_m);
-    const float* c = coverage_[k].row(y);
-    float* height = height_->row(y);
-    for (std::size_t x = 0; x < width_; ++x) height[x] += c[x] * roughness * bump_line_[x];
-    if (altitude_ >= 0 && used_[static_cast<std::size_t>(altitude_)] &&
-        layers_.model == LayerModel::product)
-      find_positions(static_cast<std::size_t>(altitude_), y);
   }
 
   const float* noise_row(std::size_t layer, int y) {
@@ -174,7 +267,7 @@ class Evaluation {
         f(x, s[0] + part[x] * s[1]);
       }
     } else if (std::holds_alternative<LayerHat>(function)) {
-      const float* values = values_of(input, y);
+      const float* values = inputs_[input]->row(y);
       for (std::size_t x = 0; x < width_; ++x)
         f(x, static_cast<float>(layer_function_value(function, layers_.inputs[input], layers_.model,
                                                      static_cast<double>(values[x]))));
@@ -268,13 +361,14 @@ class Evaluation {
 
   const LayerProgram& program_;
   const SurfaceLayers& layers_;
-  const std::vector<Grid<float>>& inputs_;
+  const GeoTransform& transform_;
   PixelRect cells_;
+  std::uint64_t seed_;
   std::size_t width_;
-  Grid<float>* height_;  // null: no bumps
-  int altitude_ = -1;    // index of this input
-  std::vector<LayerNoiseRows> bumps_;
-  std::vector<float> bump_line_;
+  std::vector<const Grid<float>*> inputs_;  // of the program; some are those of raised ground later
+  RaisedGround* raised_;                    // null: no bumps
+  Grid<float> ground_m_;                    // without bumps
+  std::vector<Grid<float>> tilted_;         // inputs of raised ground, as tilted_names
   std::vector<NoiseField> fields_;
   std::vector<int> field_of_;
   std::vector<Grid<std::uint8_t>> when_;
@@ -331,20 +425,27 @@ LayerProgram compile_layers(const SurfaceLayers& layers) {
 std::vector<Grid<float>> layer_coverage(const LayerProgram& program,
                                         const std::vector<Grid<float>>& inputs,
                                         const GeoTransform& transform, const PixelRect& cells,
-                                        std::uint64_t seed) {
+                                        std::uint64_t seed, RaisedGround* raised) {
   if (inputs.size() != program.inputs.size())
     throw Error(ErrorKind::bug, "layer_coverage", "the inputs differ from the program's");
-  return Evaluation(program, inputs, transform, cells, seed, nullptr).run();
+  return Evaluation(program, inputs, transform, cells, seed, raised).run();
 }
 
-std::vector<Grid<float>> layer_coverage_and_height(const LayerProgram& program,
-                                                   const std::vector<Grid<float>>& inputs,
-                                                   const GeoTransform& transform,
-                                                   const PixelRect& cells, std::uint64_t seed,
-                                                   Grid<float>& height_m) {
-  if (inputs.size() != program.inputs.size())
-    throw Error(ErrorKind::bug, "layer_coverage", "the inputs differ from the program's");
-  return Evaluation(program, inputs, transform, cells, seed, &height_m).run();
+int handed_on(const LayerProgram& program, double cell_m) {
+  if (program.layers.model != LayerModel::product) return 0;
+  int rough = 0;
+  int reach = 0;
+  for (std::size_t k = 0; k < program.layers.layers.size(); ++k) {
+    const SurfaceLayer& layer = program.layers.layers[k];
+    bool reads = !layer.when.empty();
+    for (std::size_t i = 0; i < layer.functions.size(); ++i)
+      reads = reads || (!std::holds_alternative<std::monostate>(layer.functions[i]) &&
+                        std::find(tilted_names.begin(), tilted_names.end(),
+                                  program.layers.inputs[i].name) != tilted_names.end());
+    if (reads) reach = rough;
+    if (is_raised(program, k, cell_m)) ++rough;
+  }
+  return reach;
 }
 
 std::vector<Grid<float>> layer_shares(const LayerProgram& program,

@@ -30,23 +30,28 @@ struct LayerProgram {
 // Error(usage) as check_surface_layers.
 LayerProgram compile_layers(const SurfaceLayers& layers);
 
+// Ground that layers raise by their bumps: H' = H + C · roughness · D with D of each layer's own
+// noise, layer by layer. In a product later layers and their expressions use the altitude with the
+// bumps of earlier ones, and slope and exposure with the slopes of these bumps.
+struct RaisedGround {
+  Grid<float> height_m;                       // at the cells; receives the height with bumps
+  std::vector<Grid<float>> slope_north_east;  // inputs of these names, without bumps; may be empty
+                                              // if handed_on() is 0
+};
+// Number of rough layers whose bumps reach the slope of later ones at cells of this size: so many
+// cells at the edge of a rectangle differ from the whole's, since slopes are differences of
+// neighbours. Bumps shorter than a cell are not visible.
+int handed_on(const LayerProgram& program, double cell_m);
+
 // Coverage C of each layer, 0…1 and never more than its parent's, at the cells of a rectangle of a
 // raster. `inputs` are grids of its size, one for each name of the program's. A pure function of
-// inputs and positions, so any rectangles and threads give the same bits. Except for noise shorter
-// than a cell it is the mean of a finer raster.
+// inputs and positions, so any rectangles (within handed_on()) and threads give the same bits.
+// Except for noise shorter than a cell it is the mean of a finer raster. `raised`: ground of the
+// rectangle's size; null: level, without bumps.
 std::vector<Grid<float>> layer_coverage(const LayerProgram& program,
                                         const std::vector<Grid<float>>& inputs,
                                         const GeoTransform& transform, const PixelRect& cells,
-                                        std::uint64_t seed);
-
-// The same with the bumps of the layers: H' = H + C · roughness · D with D of each layer's own
-// noise, layer by layer. `height_m` contains the ground at the rectangle's cells and receives the
-// height with bumps. In a product later layers use the altitude with the bumps of earlier ones.
-std::vector<Grid<float>> layer_coverage_and_height(const LayerProgram& program,
-                                                   const std::vector<Grid<float>>& inputs,
-                                                   const GeoTransform& transform,
-                                                   const PixelRect& cells, std::uint64_t seed,
-                                                   Grid<float>& height_m);
+                                        std::uint64_t seed, RaisedGround* raised = nullptr);
 
 // Visible shares of the ground and of each layer when all are painted in order, RGB' = (1 - C) RGB
 // + C RGB of the layer: the ground first, then the layers; their sum is 1.

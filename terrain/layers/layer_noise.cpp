@@ -37,10 +37,10 @@ template <class Octave>
 void each_octave(const LayerNoise& noise, std::uint64_t seed, double cell_m, Octave&& octave) {
   double weights = 0.0;
   double weight = 1.0;
-  for (int i = 0; i < noise.octaves; ++i, weight *= 0.5) weights += weight;
+  for (int i = 0; i < noise.octaves; ++i, weight *= noise.gain) weights += weight;
   weight = 1.0;
   double spacing = noise.scale_m;
-  for (int i = 0; i < noise.octaves; ++i, weight *= 0.5, spacing *= 0.5) {
+  for (int i = 0; i < noise.octaves; ++i, weight *= noise.gain, spacing *= 0.5) {
     const double seen = std::clamp(spacing / cell_m - 1.0, 0.0, 1.0);
     if (!(seen > 0.0)) break;
     octave(spacing, loudness * seen * weight / weights,

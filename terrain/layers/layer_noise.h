@@ -16,11 +16,11 @@
 namespace belvedere {
 
 // Noise of surface layers in -1…1, mean 0, a function only of seed and position in the CRS: octaves
-// of hashed lattice values under a cubic B-spline, each with half the length and half the weight of
-// the previous. Octaves shorter than a cell are left out, those of one to two cells fade in, so
-// that a coarse raster is the mean of a fine one and not a sample of it. N = clamp(2 Σ w n / Σ w,
-// -1, 1), Σ w over all octaves of the layer: the factor gives a standard deviation of about a
-// third.
+// of hashed lattice values under a cubic B-spline, each with half the length and `gain` times the
+// weight of the previous. Octaves shorter than a cell are left out, those of one to two cells fade
+// in, so that a coarse raster is the mean of a fine one and not a sample of it. N = clamp(2 Σ w n /
+// Σ w, -1, 1), Σ w over all octaves of the layer: the factor gives a standard deviation of about a
+// third with a gain of ½.
 class LayerNoiseRows {
  public:
   LayerNoiseRows(const LayerNoise& noise, std::uint64_t seed, const GeoTransform& transform,

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "base/colour/water_colour.h"
 #include "base/error.h"
@@ -89,36 +90,73 @@ Grid<float> spline_coefficients(const Grid<float>& values) {
   return out;
 }
 
+namespace {
+
+GeoTransform finer_transform(const GeoTransform& cells, int factor) {
+  return {cells.origin_x, cells.origin_y, cells.cell_x / factor, cells.cell_y / factor};
+}
+
+PixelRect finer_whole(const Dem& dem, int factor) {
+  return {0, 0, dem.width() * factor, dem.height() * factor};
+}
+
+// Inputs at the cells of a rectangle of the finer raster; "altitude" by the spline too.
+std::vector<Grid<float>> finer_inputs(const LayerGround& ground, int factor,
+                                      const PixelRect& cells) {
+  if (factor == 1) return layer_inputs(ground, cells);
+  const PixelRect touched{cells.x0 / factor, cells.y0 / factor, (cells.x1 + factor - 1) / factor,
+                          (cells.y1 + factor - 1) / factor};
+  const PixelRect all{0, 0, ground.dem->width(), ground.dem->height()};
+  const PixelRect far = intersection(grown(touched, 3 + spline_reach), all);
+  std::vector<Grid<float>> inputs = layer_inputs(ground, far);
+  for (Grid<float>& input : inputs)
+    input = refined(spline_coefficients(input), {factor, far}, cells);
+  return inputs;
+}
+
+}  // namespace
+
+LayeredCells evaluate_layers(const LayerProgram& program, const LayerGround& ground, int factor,
+                             const PixelRect& cells, std::uint64_t seed) {
+  const Dem& dem = *ground.dem;
+  const PixelRect whole = finer_whole(dem, factor);
+  if (factor < 1 || intersection(cells, whole) != cells || cells.empty())
+    throw Error(ErrorKind::bug, "evaluate_layers", "a rectangle outside the ground");
+  const GeoTransform fine = finer_transform(dem.transform, factor);
+  const int margin = handed_on(program, 0.5 * (fine.cell_x + fine.cell_y));
+  const PixelRect rimmed = intersection(grown(cells, margin), whole);
+  std::vector<Grid<float>> inputs = finer_inputs(ground, factor, rimmed);
+  const auto of_ground = [&](const std::vector<std::string>& names) {
+    return finer_inputs(make_layer_ground(dem, {}, names), factor, rimmed);
+  };
+  RaisedGround raised;
+  const auto altitude = std::find(program.inputs.begin(), program.inputs.end(), "altitude");
+  raised.height_m = altitude != program.inputs.end()
+                        ? inputs[static_cast<std::size_t>(altitude - program.inputs.begin())]
+                        : std::move(of_ground({"altitude"}).front());
+  if (margin > 0) raised.slope_north_east = of_ground({"slope", "north", "east"});
+  LayeredCells out{std::move(inputs), {}, {}};
+  out.coverage = layer_coverage(program, out.inputs, fine, rimmed, seed, &raised);
+  out.altitude_m = std::move(raised.height_m);
+  if (rimmed == cells) return out;
+  const PixelRect inner = moved(cells, -rimmed.x0, -rimmed.y0);
+  for (std::vector<Grid<float>>* grids : {&out.inputs, &out.coverage})
+    for (Grid<float>& grid : *grids) grid = part_of(grid, inner);
+  out.altitude_m = part_of(out.altitude_m, inner);
+  return out;
+}
+
 LayerSurface layer_surface(const LayerProgram& program, const LayerGround& ground, int factor,
                            const PixelRect& cells, std::uint64_t seed) {
-  const Dem& dem = *ground.dem;
-  const PixelRect whole{0, 0, dem.width() * factor, dem.height() * factor};
-  if (factor < 1 || intersection(cells, whole) != cells || cells.empty())
-    throw Error(ErrorKind::bug, "layer_surface", "a rectangle outside the ground");
-  const GeoTransform fine{dem.transform.origin_x, dem.transform.origin_y,
-                          dem.transform.cell_x / factor, dem.transform.cell_y / factor};
+  const GeoTransform fine = finer_transform(ground.dem->transform, factor);
   // A margin of one cell for normals.
-  const PixelRect rimmed = intersection(grown(cells, 1), whole);
-  const PixelRect touched{rimmed.x0 / factor, rimmed.y0 / factor, (rimmed.x1 + factor - 1) / factor,
-                          (rimmed.y1 + factor - 1) / factor};
-  const PixelRect all{0, 0, dem.width(), dem.height()};
-  const PixelRect near = intersection(grown(touched, 3), all);
-  const PixelRect far = intersection(grown(near, spline_reach), all);
-
-  const Grid<float> coefficients = spline_coefficients(part_of(dem.altitude_m, far));
-  Grid<float> height = refined(coefficients, {factor, far}, rimmed);
-  std::vector<Grid<float>> inputs;
-  const std::vector<Grid<float>> coarse = layer_inputs(ground, near);
-  for (std::size_t i = 0; i < coarse.size(); ++i)
-    inputs.push_back(program.inputs[i] == "altitude" ? height
-                                                     : refined(coarse[i], {factor, near}, rimmed));
-  const std::vector<Grid<float>> coverage =
-      layer_coverage_and_height(program, inputs, fine, rimmed, seed, height);
-
+  const PixelRect rimmed = intersection(grown(cells, 1), finer_whole(*ground.dem, factor));
+  const LayeredCells layered = evaluate_layers(program, ground, factor, rimmed, seed);
+  const Grid<float>& height = layered.altitude_m;
   LayerSurface surface;
   const PixelRect inner = moved(cells, -rimmed.x0, -rimmed.y0);
   surface.altitude_m = part_of(height, inner);
-  surface.colour = part_of(layer_colour(program, coverage), inner);
+  surface.colour = part_of(layer_colour(program, layered.coverage), inner);
   surface.normal = Grid<glm::vec3>(cells.width(), cells.height());
   for (int y = 0; y < cells.height(); ++y)
     for (int x = 0; x < cells.width(); ++x) {
@@ -211,7 +249,8 @@ void draw_layer_picture(const SurfaceLayers& layers, const Dem& dem, const Layer
                                                 : sample_bilinear(depth_m, in_cells(cells.x0 + x),
                                                                   in_cells(y0 + y));
             // Water is level, whatever is under it.
-            const glm::vec3 lit = surface.colour(x, y) * light.brightness(surface.normal(x, y));
+            const float brightness = depth > 0.F ? 1.F : light.brightness(surface.normal(x, y));
+            const glm::vec3 lit = surface.colour(x, y) * brightness;
             strip(cells.x0 + x, y) =
                 glm::clamp(water_colour(lit, depth), glm::vec3(0.F), glm::vec3(255.F));
           }

@@ -64,6 +64,20 @@ Grid<float> spline_coefficients(const Grid<float>& values);
 // Radius in cells that a coefficient depends on.
 inline constexpr int spline_reach = 16;
 
+// Layers at the cells of a rectangle: the one evaluation of pictures, classes and scenes.
+struct LayeredCells {
+  std::vector<Grid<float>> inputs;  // of the ground without bumps, by the program's names
+  std::vector<Grid<float>> coverage;
+  Grid<float> altitude_m;  // with the layers' bumps
+};
+
+// Evaluates layers at `factor` × `factor` positions per cell of the DEM: `cells` is a rectangle of
+// that finer raster, which starts where the DEM does. Altitudes and all other inputs between cells
+// are interpolated by splines through the values at the cells; finer detail comes from the layers'
+// noise. Any rectangle has the bits of the whole.
+LayeredCells evaluate_layers(const LayerProgram& program, const LayerGround& ground, int factor,
+                             const PixelRect& cells, std::uint64_t seed);
+
 // A piece of ground with its layers.
 struct LayerSurface {
   Grid<float> altitude_m;  // with the layers' bumps
@@ -71,10 +85,7 @@ struct LayerSurface {
   Grid<glm::vec3> colour;  // sRGB as encoded, 0…255
 };
 
-// Evaluates the surface at `factor` × `factor` positions per cell of the DEM: `cells` is a
-// rectangle of that finer raster, which starts where the DEM does. Altitudes between cells are
-// interpolated by spline; finer detail comes from the layers' noise. Any rectangle has the bits of
-// the whole.
+// The surface of evaluate_layers().
 LayerSurface layer_surface(const LayerProgram& program, const LayerGround& ground, int factor,
                            const PixelRect& cells, std::uint64_t seed);
 

@@ -93,7 +93,7 @@ struct Reader : LayersReader {
 
   LayerNoise noise(const ConfigValue& value) const {
     const ConfigTable& table = as_table(value, where);
-    allow_only(table, {"scale_m", "octaves", "amplitude", "bias"}, where);
+    allow_only(table, {"scale_m", "octaves", "gain", "amplitude", "bias"}, where);
     LayerNoise read;
     read.scale_m = number_or(table, "scale_m", read.scale_m);
     if (const ConfigValue* octaves = find(table, "octaves")) {
@@ -103,6 +103,7 @@ struct Reader : LayersReader {
     }
     read.amplitude = number_or(table, "amplitude", read.amplitude);
     read.bias = number_or(table, "bias", read.bias);
+    read.gain = number_or(table, "gain", read.gain);
     if (!(read.scale_m > 0.0))
       fail(value.position, fmt::format("noise of {} m", read.scale_m), "more than 0 m");
     return read;
@@ -263,9 +264,12 @@ std::string layer_text(const SurfaceLayers& file, const SurfaceLayer& layer) {
                        layer.roughness_scale_m);
   const LayerNoise& n = layer.noise;
   if (n.scale_m != usual.noise.scale_m || n.octaves != usual.noise.octaves ||
-      n.amplitude != usual.noise.amplitude || n.bias != usual.noise.bias)
-    out += fmt::format("noise = {{ scale_m = {}, octaves = {}, amplitude = {}, bias = {} }}\n",
-                       n.scale_m, n.octaves, n.amplitude, n.bias);
+      n.amplitude != usual.noise.amplitude || n.bias != usual.noise.bias ||
+      n.gain != usual.noise.gain)
+    out += fmt::format("noise = {{ scale_m = {}, octaves = {}, {}amplitude = {}, bias = {} }}\n",
+                       n.scale_m, n.octaves,
+                       n.gain != usual.noise.gain ? fmt::format("gain = {}, ", n.gain) : "",
+                       n.amplitude, n.bias);
   if (!layer.when.empty()) out += fmt::format("when = {}\n", json_quoted(layer.when));
   bool first = true;
   for (std::size_t i = 0; i < layer.functions.size(); ++i) {

@@ -136,6 +136,8 @@ void check_surface_layers(const SurfaceLayers& layers, const std::string& where)
       fail(position,
            fmt::format("noise of {} m and {} octaves", layer.noise.scale_m, layer.noise.octaves),
            "more than 0 m, 1…12 octaves");
+    if (!(layer.noise.gain > 0.0) || !(layer.noise.gain <= 2.0))
+      fail(position, fmt::format("noise with a gain of {}", layer.noise.gain), "above 0, up to 2");
     if (!std::isfinite(layer.noise.amplitude) || !std::isfinite(layer.noise.bias) ||
         !std::isfinite(layer.noise.scale_m))
       fail(position, "noise has numbers that are not finite", "finite numbers");
@@ -162,9 +164,9 @@ RuleProgram compile_layer_expressions(const SurfaceLayers& layers, const std::st
 
 std::vector<Grid<std::uint8_t>> evaluate_layer_expressions(
     const RuleProgram& program, const std::vector<const Grid<float>*>& grids,
-    const GeoTransform& transform, const PixelRect& cells, std::uint64_t seed) {
+    const GeoTransform& transform, const PixelRect& cells, std::uint64_t seed, std::size_t first) {
   std::vector<Grid<std::uint8_t>> out(program.conditions.size());
-  for (std::size_t k = 0; k < out.size(); ++k)
+  for (std::size_t k = first; k < out.size(); ++k)
     if (program.conditions[k]) out[k] = Grid<std::uint8_t>(cells.width(), cells.height());
   const RuleGrids known(program, program.all_needs(), transform, cells, seed, grids);
   RuleRows rows(known);
@@ -174,7 +176,7 @@ std::vector<Grid<std::uint8_t>> evaluate_layer_expressions(
     for (int begin = 0; begin < cells.width(); begin += rule_block) {
       const int count = std::min(rule_block, cells.width() - begin);
       rows.go_to(begin);
-      for (std::size_t k = 0; k < out.size(); ++k) {
+      for (std::size_t k = first; k < out.size(); ++k) {
         if (!program.conditions[k]) continue;
         rows.evaluate(*program.conditions[k], result.data());
         std::uint8_t* target = out[k].row(y) + begin;

@@ -63,13 +63,15 @@ std::array<std::uint8_t, 256> samples_of_knots(const std::vector<std::uint8_t>& 
 // additive model counts as its logarithm, at least -12.
 using LayerFunction = std::variant<std::monostate, LayerHat, LayerSamples>;
 
-// Noise at world coordinates in -1…1: a sum of octaves, each with half the length and half the
-// weight of the previous. Siblings of equal scale and octaves share one field.
+// Noise at world coordinates in -1…1: a sum of octaves, each with half the length and `gain` times
+// the weight of the previous. Siblings of equal scale, octaves and gain share one field.
 struct LayerNoise {
   double scale_m = 200.0;  // length of the coarsest octave, > 0
   int octaves = 4;         // 1…12
   double amplitude = 0.0;  // s: 0 is no noise
   double bias = 1.0;  // b: in a product 1 leaves the result to the functions; any number in a sum
+  double gain = 0.5;  // > 0, ≤ 2: its power spectrum falls by 2 - 2 log2(gain) per logarithm of
+                      // frequency, in two dimensions
 };
 
 struct SurfaceLayer {
@@ -130,9 +132,11 @@ RuleProgram compile_layer_expressions(const SurfaceLayers& layers, const std::st
                                       const RulePlaces& positions = {});
 
 // 1 where a layer's expression is true, 0 where it is not, at the cells of a rectangle; empty for
-// layers without one. `grids` by slot, of the rectangle's size: those that the program needs.
+// layers without one and before `first`. `grids` by slot, of the rectangle's size: those that the
+// program needs.
 std::vector<Grid<std::uint8_t>> evaluate_layer_expressions(
     const RuleProgram& program, const std::vector<const Grid<float>*>& grids,
-    const GeoTransform& transform, const PixelRect& cells, std::uint64_t seed);
+    const GeoTransform& transform, const PixelRect& cells, std::uint64_t seed,
+    std::size_t first = 0);
 
 }  // namespace belvedere

@@ -95,6 +95,63 @@ TEST(LayerApply, ReliefIsTheCoverageOfRoughLayers) {
       layer_land_cover(layers, dem, {}, parameters, silent_progress()).relief.lake_depth_m.empty());
 }
 
+// Classes, scenes and pictures from above see the same layers: a file with bumps that later layers
+// depend on, cell by cell; and between cells a picture agrees where its cells have the same centre,
+// without noise.
+TEST(LayerApply, PicturesAndScenesAgreeOnACell) {
+  Dem dem = hills();
+  dem.altitude_m = part_of(dem.altitude_m, {0, 0, 120, 90});
+  dem.filled = Grid<std::uint8_t>(120, 90, 0);
+  SurfaceLayers layers = three();
+  layers.inputs.push_back({"slope", 0.0, 60.0});
+  layers.layers[0].functions.emplace_back();
+  layers.layers[0].roughness_m = 30.0;
+  layers.layers[0].roughness_scale_m = 150.0;
+  layers.layers[1].functions = {{}, {}, LayerHat{25.0, INFINITY, 20.0, 0.0}};
+  layers.layers[1].when = "altitude > 1500";
+  layers.layers[1].roughness_m = 1.0;
+  layers.layers[1].roughness_scale_m = 60.0;
+  const LayerProgram program = compile_layers(layers);
+  const LayerGround ground = make_layer_ground(dem, {}, program.inputs);
+  const PixelRect all{0, 0, 120, 90};
+  const LayerSurface seen = layer_surface(program, ground, 1, all, 1);
+  const LayeredCells layered = evaluate_layers(program, ground, 1, all, 1);
+  EXPECT_EQ(seen.altitude_m, layered.altitude_m);
+  LayerApplyParameters parameters;
+  parameters.colour = true;
+  apply_layers(
+      layers, dem, {}, parameters,
+      [&](const LayerStrip& strip) {
+        for (const auto [x, y] : test::cells(120, strip.classes.height()))
+          ASSERT_EQ(strip.colour[0](x, y), static_cast<int>(seen.colour(x, strip.y0 + y).x + 0.5F));
+      },
+      silent_progress());
+  parameters.relief = true;
+  const LandCover scene = layer_land_cover(layers, dem, {}, parameters, silent_progress());
+  ASSERT_EQ(scene.relief.bumps.size(), 2U);
+  EXPECT_EQ(scene.relief.bumps[1].share, layered.coverage[1]);
+  // The bumps of wood decide where ice lies.
+  const auto level = layer_coverage(program, layer_inputs(ground), dem.transform, all, 1);
+  double moved = 0.0;
+  for (std::size_t i = 0; i < level[1].size(); ++i)
+    moved += static_cast<double>(std::abs(level[1][i] - layered.coverage[1][i]));
+  EXPECT_GT(moved / static_cast<double>(level[1].size()), 0.01);
+
+  SurfaceLayers plain = three();
+  for (SurfaceLayer& layer : plain.layers) layer.noise.amplitude = 0.0;
+  const LayerProgram still = compile_layers(plain);
+  const LayerGround again = make_layer_ground(dem, {}, still.inputs);
+  const LayeredCells coarse = evaluate_layers(still, again, 1, all, 1);
+  const LayeredCells fine = evaluate_layers(still, again, 3, {0, 0, 360, 270}, 1);
+  for (const auto [x, y] : test::cells({10, 10, 110, 80})) {  // borders are extended
+    ASSERT_NEAR(fine.altitude_m(3 * x + 1, 3 * y + 1), coarse.altitude_m(x, y), 2e-3);
+    for (std::size_t i = 0; i < coarse.inputs.size(); ++i)
+      ASSERT_NEAR(fine.inputs[i](3 * x + 1, 3 * y + 1), coarse.inputs[i](x, y), 2e-3) << i;
+    for (std::size_t k = 0; k < 2; ++k)
+      ASSERT_NEAR(fine.coverage[k](3 * x + 1, 3 * y + 1), coarse.coverage[k](x, y), 1e-4) << k;
+  }
+}
+
 // Strips and tiles do not affect the result: coverages and colours are those of the whole, for any
 // number of threads.
 TEST(LayerApply, TilesAndThreadsLeaveNoTrace) {

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/grid.h"
 #include "base/random.h"
+#include "terrain/layers/layer_noise.h"
 #include "tests/grids.h"
 #include "tests/terrain/layers/metres.h"
 
@@ -100,6 +102,86 @@ TEST(LayerCoverage, ThreeLayersInClosedForm) {
   EXPECT_EQ(shares[2](0, 0), 0.1875F);
   EXPECT_EQ(shares[1](0, 0), 0.28125F);
   EXPECT_EQ(shares[0](0, 0), 0.28125F);
+}
+
+// Three rough layers by hand: b depends on the altitude that a raised, c on the slope and the
+// altitude that both raised. Ground that falls by a tenth to the east.
+TEST(LayerCoverage, HeightSlopeAndConditionsAreHandedOn) {
+  SurfaceLayers layers;
+  layers.name = "rough";
+  layers.ground_rgb = 0x646464;
+  layers.inputs = {{"altitude", 0.0, 1000.0}, {"slope", 0.0, 60.0}, {"east", -1.0, 1.0}};
+  layers.layers = {layer("a", -1, 0xc80000, 0.5), layer("b", 0, 0x00c800),
+                   layer("c", -1, 0x0000c8)};
+  for (SurfaceLayer& l : layers.layers) l.functions.resize(3);
+  layers.layers[0].roughness_m = 4.0;
+  layers.layers[0].roughness_scale_m = 120.0;
+  layers.layers[1].functions[0] = LayerHat{500.0, INFINITY, 20.0, 0.0};
+  layers.layers[1].roughness_m = 6.0;
+  layers.layers[1].roughness_scale_m = 90.0;
+  layers.layers[2].functions[1] = LayerHat{5.0, INFINITY, 10.0, 0.0};
+  layers.layers[2].functions[2] = LayerHat{0.7, INFINITY, 1.0, 0.0};
+  layers.layers[2].when = "altitude > 498";
+  layers.layers[2].roughness_m = 2.0;
+  layers.layers[2].roughness_scale_m = 60.0;
+  const LayerProgram program = compile_layers(layers);
+  EXPECT_EQ(handed_on(program, 10.0), 2);
+  EXPECT_EQ(handed_on(program, 100.0), 1);  // b's bumps are not visible in such cells
+  constexpr int size = 40;
+  const PixelRect cells{0, 0, size, size};
+  constexpr double fall = 0.1;
+  RaisedGround ground{Grid<float>(size, size), std::vector<Grid<float>>(3)};
+  for (const auto [x, y] : test::cells(size, size))
+    ground.height_m(x, y) = static_cast<float>(520.0 - 10.0 * fall * x);
+  const double slope = std::atan(fall) * 180.0 / 3.14159265358979;
+  ground.slope_north_east = {Grid<float>(size, size, static_cast<float>(slope)),
+                             Grid<float>(size, size, 0.F),
+                             Grid<float>(size, size, static_cast<float>(fall / (fall + 0.02)))};
+  const Grid<float> before = ground.height_m;
+  const std::vector<Grid<float>> inputs = {before, ground.slope_north_east[0],
+                                           ground.slope_north_east[2]};
+  const auto c = layer_coverage(program, inputs, metres, cells, 7, &ground);
+  const auto bump = [&](std::size_t k, int x, int y) {
+    return layer_noise_at(bump_noise(layers.layers[k].roughness_scale_m),
+                          bump_seed(layers.layers[k], 7), metres.to_crs(x, y), 10.0)
+        .value;
+  };
+  const auto above = [](double value, double low, double width) {
+    return std::clamp((value - low) / width + 0.5, 0.0, 1.0);
+  };
+  const auto b_of = [&](int x, int y, double& height) {
+    height = static_cast<double>(before(x, y)) + 0.5 * 4.0 * bump(0, x, y);
+    const double covered = 0.5 * above(height, 500.0, 20.0);
+    height += covered * 6.0 * bump(1, x, y);
+    return covered;
+  };
+  const Grid<glm::vec3> colour = layer_colour(program, c);
+  int partly = 0;
+  for (const auto [x, y] : test::cells({1, 1, size - 1, size - 1})) {
+    double height = 0.0;
+    const double b = b_of(x, y, height);
+    const auto height_at = [&](int at_x, int at_y) {
+      double at = 0.0;
+      b_of(at_x, at_y, at);
+      return at;
+    };
+    const double east = (height_at(x + 1, y) - height_at(x - 1, y)) / 20.0;
+    const double north = (height_at(x, y - 1) - height_at(x, y + 1)) / 20.0;
+    const double steep = std::hypot(east, north);
+    const double covered = height > 498.0 ? above(std::atan(steep) * 57.29577951308, 5.0, 10.0) *
+                                                above(-east / (steep + 0.02), 0.7, 1.0)
+                                          : 0.0;
+    partly += covered > 0.05 && covered < 0.95 ? 1 : 0;
+    if (std::abs(height - 498.0) < 0.01) continue;
+    ASSERT_NEAR(c[0](x, y), 0.5, 1e-6);
+    ASSERT_NEAR(c[1](x, y), b, 1e-4);
+    ASSERT_NEAR(c[2](x, y), covered, 2e-3) << x << ' ' << y;
+    ASSERT_NEAR(ground.height_m(x, y), height + covered * 2.0 * bump(2, x, y), 5e-3);
+    // Red: 100 → 150 → less b's share of it → less c's.
+    const double red = 150.0 * (1.0 - b) * (1.0 - covered);
+    ASSERT_NEAR(colour(x, y).x, red, 0.5);
+  }
+  EXPECT_GT(partly, 200);
 }
 
 // Whatever bias and functions are, full and zero coverage stay; also for children. An expression of

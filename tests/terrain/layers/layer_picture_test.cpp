@@ -98,6 +98,31 @@ TEST(LayerPicture, LakesShowTheirBeds) {
   EXPECT_NEAR(drawn(bowl, brown, bare)(120, 120).x, 128.F, 0.5F);
 }
 
+// Water is level, whatever bumps its bed has; the shore is not.
+TEST(LayerPicture, LakesAreLitAsLevel) {
+  Dem bowl = ramp(80, 0.F, 0.F);
+  for (const auto [x, y] : test::cells(80, 80)) {
+    const double out = std::hypot(x - 40.0, y - 40.0);
+    if (out > 25.0) bowl.altitude_m(x, y) = static_cast<float>(400.0 + 3.0 * (out - 25.0));
+  }
+  SurfaceLayers stones = one_colour(0x806040);
+  stones.layers[0].functions = {LayerHat{0.0, 1000.0, 0.0, 0.0}};
+  stones.layers[0].rgb = 0x806040;
+  stones.layers[0].roughness_m = 3.0;
+  stones.layers[0].roughness_scale_m = 40.0;
+  const Grid<glm::vec3> lit = drawn(bowl, stones, {.finer = 2});
+  const Grid<glm::vec3> flat = drawn(bowl, stones, {.finer = 2, .relief = 0.0});
+  int different = 0;
+  for (const auto [x, y] : test::cells({0, 60, 160, 100})) {
+    const bool in_lake = std::hypot(x - 80.5, y - 80.5) < 44.0;
+    if (in_lake) {
+      ASSERT_EQ(lit(x, y), flat(x, y)) << x << ' ' << y;
+    }
+    if (!in_lake && lit(x, y) != flat(x, y)) ++different;
+  }
+  EXPECT_GT(different, 500);
+}
+
 TEST(LayerPicture, ThreadsLeaveNoTrace) {
   Dem rough = ramp(150, 0.1F, 0.2F);
   SurfaceLayers layers = one_colour(0x608040);
@@ -236,10 +261,15 @@ TEST(LayerSurface, LaterLayersSeeTheDisplacedHeight) {
 }
 
 TEST(LayerSurface, AnyRectangleHasTheBitsOfTheWhole) {
+  SurfaceLayers layers = rough_layers(1.0);
+  layers.layers[0].roughness_scale_m = 30.0;
+  layers.layers[1].functions[1] = LayerHat{8.0, INFINITY, 10.0, 0.0};  // of slopes with bumps
+  layers.layers[1].when = "altitude > 380";
   const Dem dem = ground(80, [](double x, double y) {
     return 400.0 + 60.0 * std::sin(x / 70.0) * std::cos(y / 50.0) + 0.3 * x;
   });
-  const LayerProgram program = compile_layers(rough_layers(1.0));
+  const LayerProgram program = compile_layers(layers);
+  ASSERT_EQ(handed_on(program, 10.0 / 3.0), 1);
   const LayerGround made = make_layer_ground(dem, {}, program.inputs);
   const LayerSurface whole = layer_surface(program, made, 3, {0, 0, 240, 240}, 3);
   const PixelRect part{97, 101, 155, 140};
