@@ -57,6 +57,7 @@ struct Reader : LayersReader {
 
   LayerFunction function(const ConfigValue& value, LayerModel model) const {
     const ConfigTable& table = as_table(value, where);
+    if (const ConfigValue* values = find(table, "values")) return numbers(*values, table, model);
     const ConfigValue* samples = find(table, "samples");
     if (samples == nullptr) {
       allow_only(table, {"low", "high", "width", "low_width", "high_width"}, where);
@@ -88,6 +89,35 @@ struct Reader : LayersReader {
       read.samples = samples_of_knots(*bytes);
       read.knots = *bytes;
     }
+    return read;
+  }
+
+  // Values as plain numbers; in a file they are bytes between `from` and `to`.
+  LayerSamples numbers(const ConfigValue& value, const ConfigTable& table, LayerModel model) const {
+    allow_only(table, {"values", "from", "to"}, where);
+    std::vector<double> values;
+    for (const ConfigValue& number : as_array(value, where))
+      values.push_back(as_number(number, where));
+    if (values.size() < 2 || values.size() > 256)
+      fail(value.position, fmt::format("{} values", values.size()), "2 … 256 numbers");
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const bool product = model == LayerModel::product;
+    const double from = number_or(table, "from", product ? 0.0 : *low);
+    const double to = number_or(table, "to", product ? 1.0 : *high);
+    const double least = std::min(from, to);
+    const double most = std::max(from, to);
+    if (product && (least < 0.0 || most > 1.0))
+      fail(value.position, fmt::format("values from {} to {}", from, to), "0…1 in a product");
+    if (!(*low >= least - 1e-9) || !(*high <= most + 1e-9))
+      fail(value.position, fmt::format("values from {} to {}", *low, *high),
+           fmt::format("{}…{}", least, most));
+    std::vector<std::uint8_t> bytes;
+    for (const double v : values)
+      bytes.push_back(static_cast<std::uint8_t>(
+          most > least ? std::floor(255.0 * std::clamp((v - from) / (to - from), 0.0, 1.0) + 0.5)
+                       : 0.0));
+    LayerSamples read{from, to, samples_of_knots(bytes), {}};
+    read.knots = std::move(bytes);
     return read;
   }
 
@@ -228,6 +258,23 @@ void order_layers(const Reader& reader, const std::vector<ReadLayer>& read, Surf
 
 std::string coloured(std::uint32_t rgb) { return fmt::format("\"#{:06x}\"", rgb & 0xffffffU); }
 
+// The bytes of a function as the numbers that they mean, with as many digits as tell them apart.
+std::string plain_numbers(const LayerSamples& samples) {
+  const double step = (samples.at_255 - samples.at_0) / 255.0;
+  int digits = 0;
+  for (double smallest = 1.0; smallest > 0.5 * std::abs(step); smallest *= 0.1) ++digits;
+  std::vector<std::string> numbers;
+  for (const std::uint8_t byte : samples.knots) {
+    std::string text = fmt::format("{:.{}f}", samples.at_0 + step * byte, digits);
+    if (digits > 0) {
+      text.resize(text.find_last_not_of('0') + 1);
+      if (text.back() == '.') text.pop_back();
+    }
+    numbers.push_back(std::move(text));
+  }
+  return fmt::format("[{}]", fmt::join(numbers, ", "));
+}
+
 std::string function_text(const LayerFunction& function) {
   if (const auto* hat = std::get_if<LayerHat>(&function)) {
     std::vector<std::string> parts;
@@ -245,6 +292,8 @@ std::string function_text(const LayerFunction& function) {
   const std::string range = samples.at_0 == 0.0 && samples.at_255 == 1.0
                                 ? ""
                                 : fmt::format("from = {}, to = {}, ", samples.at_0, samples.at_255);
+  if (!samples.knots.empty() && samples.at_0 != samples.at_255)
+    return fmt::format("{{ {}values = {} }}", range, plain_numbers(samples));
   return fmt::format("{{ {}samples = \"{}\" }}", range,
                      samples.knots.empty()
                          ? to_base64(samples.samples.data(), samples.samples.size())

@@ -46,10 +46,6 @@ Grid<std::uint8_t> find_similar_colours(const Grid<glm::vec3>& picture, const Gr
 // saturation), saturation, value.
 std::array<double, 3> colour_histogram_distance(const Grid<glm::vec3>& a, const Grid<glm::vec3>& b);
 
-// Hue in turns, 0…1; saturation and value 0…1.
-glm::dvec3 to_hsv(glm::dvec3 rgb);
-glm::dvec3 from_hsv(glm::dvec3 hsv);
-
 // Light and shade of a crop come from relief and are not texture (Zalesny et al. 2005 call such
 // crops composite): each half is learnt separately.
 enum class LightHalf { lit, shaded };

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/colour/hsv.h"
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/math_exact.h"
@@ -171,30 +172,16 @@ double gradient_energy(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>*
 }
 
 HueSaturation hue_saturation_of(const glm::dvec3& rgb, double grey_range) {
-  const auto [r, g, b] = std::array{rgb.x, rgb.y, rgb.z};
-  const double max = std::max({r, g, b});
-  const double min = std::min({r, g, b});
-  const double range = max - min;
-  HueSaturation colour;
-  colour.value = max / 255.0;
-  colour.saturation = max > 0.0 ? range / max : 0.0;
-  colour.grey = range <= grey_range;
-  if (range <= 0.0) return colour;
-  double sixth = 0.0;
-  if (max == r)
-    sixth = (g - b) / range + (g < b ? 6.0 : 0.0);
-  else if (max == g)
-    sixth = (b - r) / range + 2.0;
-  else
-    sixth = (r - g) / range + 4.0;
-  colour.hue_deg = 60.0 * sixth;
-  return colour;
+  const glm::dvec3 hsv = to_hsv(rgb);
+  const double range = hsv.z - std::min({rgb.x, rgb.y, rgb.z});
+  return {360.0 * hsv.x, hsv.y, hsv.z / 255.0, range <= grey_range};
 }
 
 PlanePosition hue_saturation_place(const HueSaturation& colour) {
   constexpr double grey_share = 0.3;
   const exact::Turn turn = exact::turn(to_radians(colour.hue_deg));
-  const double reach = colour.saturation * (colour.grey ? grey_share : 1.0);
+  const double reach = colour.own_hue ? 1.0 - grey_share * (1.0 - colour.saturation)
+                                      : colour.saturation * (colour.grey ? grey_share : 1.0);
   return {reach * turn.cosine, reach * turn.sine};
 }
 

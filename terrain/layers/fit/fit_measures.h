@@ -60,12 +60,14 @@ struct HueSaturation {
   double saturation = 0.0;  // 0…1, (max - min) / max
   double value = 0.0;       // 0…1, max / 255
   bool grey = false;        // channels differ by at most `grey_range`: the hue is meaningless
+  bool own_hue = false;     // a grey with a hue given to it
 };
-// Hue, saturation and value (Smith 1978) of a colour with channels 0…255.
+// Hue, saturation and value of a colour with channels 0…255.
 HueSaturation hue_saturation_of(const glm::dvec3& rgb, double grey_range = 12.0);
 
 // A colour's position in the hue–saturation plane: saturation as radius and hue as angle. Greys are
-// drawn in to three tenths, since their hue is noise. A common factor on all channels does not
+// drawn in to three tenths, since their hue is noise, or lie at the rim where they have a hue of
+// their own. A common factor on all channels does not
 // change it, except across the grey range.
 struct PlanePosition {
   double x = 0.0;

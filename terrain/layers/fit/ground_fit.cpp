@@ -41,9 +41,12 @@ FitCells cells_of(const std::vector<std::vector<std::uint8_t>>& inputs,
 
 ClassFunctions fit_functions(const FitCells& cells, const GroundFitParameters& parameters,
                              std::size_t max) {
-  if (parameters.functions == FunctionSource::histogram) return histogram_functions(cells);
-  if (parameters.model == LayerModel::product) return fit_product(cells, {.max = max});
-  return fit_additive(cells, {.roughness = 2e-3, .steps = 120, .max = max});
+  if (parameters.functions == FunctionSource::histogram)
+    return histogram_functions(cells, {.smoothing = parameters.smoothing});
+  if (parameters.model == LayerModel::product)
+    return fit_product(cells, {.roughness = parameters.roughness.value_or(6e-4), .max = max});
+  return fit_additive(cells,
+                      {.roughness = parameters.roughness.value_or(2e-3), .steps = 120, .max = max});
 }
 
 // Divides each class by its colours on level ground: leaf labels of the training cells, and

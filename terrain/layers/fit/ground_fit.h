@@ -48,6 +48,9 @@ enum class FunctionSource : std::uint8_t {
 struct GroundFitParameters {
   LayerModel model = LayerModel::product;
   FunctionSource functions = FunctionSource::fitted;
+  double smoothing = 2.0;                // of histograms (HistogramParameters)
+  std::optional<double> roughness = {};  // of fitted functions (FitFunctionParameters); none: the
+                                         // model's own
   int children = 4;  // colours per class; half as many if it covers less than a twentieth; 1: none
   double forest_share =
       0.0;  // 0…1: weight of a forest averaged with the model's shares; not possible in a file

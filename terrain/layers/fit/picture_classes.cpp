@@ -113,10 +113,16 @@ Grid<std::uint8_t> opened(const Grid<std::uint8_t>& mask) {
   return cross(cross(mask, true), false);
 }
 
+// White as clouds and snow are.
+bool is_white(const HueSaturation& c, const CloudParameters& parameters) {
+  return (c.grey && c.value > parameters.white) ||
+         (c.value > parameters.whitest && c.saturation < parameters.pale);
+}
+
 }  // namespace
 
-Clouds find_clouds(const Grid<glm::vec3>& picture, double cell_m,
-                   const CloudParameters& parameters) {
+Clouds find_clouds(const Grid<glm::vec3>& picture, double cell_m, const CloudParameters& parameters,
+                   const Grid<float>* swir) {
   constexpr int cloud_rim = 3;
   constexpr int shadow_rim = 8;
   constexpr int coarse_size = 256;  // cells along the longer side of the grid for the full search
@@ -128,16 +134,17 @@ Clouds find_clouds(const Grid<glm::vec3>& picture, double cell_m,
   parallel_rows(height, [&](int y) {
     for (int x = 0; x != width; ++x) {
       const HueSaturation c = hue_saturation_of(picture(x, y));
-      white(x, y) = (c.grey && c.value > parameters.white) ||
-                            (c.value > parameters.whitest && c.saturation < parameters.pale)
-                        ? 1
-                        : 0;
+      const auto green = static_cast<double>(picture(x, y).y);
+      const double infrared = swir != nullptr ? static_cast<double>((*swir)(x, y)) : green;
+      const bool snow = green - infrared > parameters.snow_index * (green + infrared);
+      white(x, y) = is_white(c, parameters) && !snow ? 1 : 0;
       dark(x, y) = c.value < parameters.dark ? 1 : 0;
       dim(x, y) = c.value < parameters.shadow ? 1 : 0;
     }
   });
   white = opened(white);
-  Clouds clouds{false, Grid<std::uint8_t>(width, height, 0), Grid<std::uint8_t>(width, height, 0)};
+  Clouds clouds{false, false, Grid<std::uint8_t>(width, height, 0),
+                Grid<std::uint8_t>(width, height, 0)};
   const int factor = std::max(1, (std::max(width, height) + coarse_size - 1) / coarse_size);
   const double min = parameters.min_m / cell_m;
   const double max = parameters.max_m / cell_m;
@@ -152,6 +159,10 @@ Clouds find_clouds(const Grid<glm::vec3>& picture, double cell_m,
   const Grid<float> dark_coarse = reduced(dark, factor);
   const Match coarse =
       best_offset(white_coarse, dark_coarse, -reach, reach, -reach, reach, within(factor));
+  if (swir != nullptr) {
+    clouds.found = std::any_of(white.begin(), white.end(), [](std::uint8_t w) { return w != 0; });
+    clouds.cloud = dilated(white, cloud_rim);
+  }
   if (coarse.correlation <= -1.0) return clouds;
   const Match fine = best_offset(reduced(white, 1), reduced(dark, 1), factor * (coarse.x - 1),
                                  factor * (coarse.x + 1), factor * (coarse.y - 1),
@@ -170,9 +181,10 @@ Clouds find_clouds(const Grid<glm::vec3>& picture, double cell_m,
   };
   clouds.elsewhere =
       best_offset(white_coarse, dark_coarse, -reach, reach, -reach, reach, elsewhere).correlation;
-  clouds.found = fine.correlation >= parameters.min_match &&
-                 clouds.elsewhere <= parameters.distinct * fine.correlation;
-  if (!clouds.found) return clouds;
+  if (fine.correlation < parameters.min_match ||
+      clouds.elsewhere > parameters.distinct * fine.correlation)
+    return clouds;
+  clouds.found = clouds.shadows = true;
   Grid<std::uint8_t> moved(width, height, 0);
   for (int y = 0; y != height; ++y)
     for (int x = 0; x != width; ++x)
@@ -237,7 +249,7 @@ std::vector<std::uint8_t> labels_by_lightness(const Grid<glm::vec3>& picture,
   }
   const PictureSun sun =
       find_sun(altitude_m, cell_m, brightness, {}, use,
-               clouds.found ? std::optional<double>(clouds.sun_azimuth_deg) : std::nullopt);
+               clouds.shadows ? std::optional<double>(clouds.sun_azimuth_deg) : std::nullopt);
   const Grid<float> light = sunlight(altitude_m, cell_m, sun);
   const Grid<glm::vec3> even = lit_evenly(picture, light, exact::sin(to_radians(sun.elevation_deg)),
                                           all, light_answers(picture, light, all, 1, use));
@@ -263,20 +275,32 @@ PictureClasses picture_classes(const Grid<glm::vec3>& picture, const Grid<float>
                                const PictureClassParameters& parameters) {
   constexpr double min_used = 0.01;
   PictureClasses found;
-  found.clouds = find_clouds(picture, cell_m, parameters.clouds);
+  found.clouds = find_clouds(picture, cell_m, parameters.clouds, parameters.swir);
   const Grid<glm::vec3> smooth = smooth_chroma(picture, parameters.chroma_sigma_cells);
   Grid<std::uint8_t> clear = use;
   std::vector<HueSaturation> colours(use.size());
   std::size_t used = 0;
   std::size_t greys = 0;
+  std::size_t low_whites = 0;
   for (std::size_t i = 0; i != use.size(); ++i) {
     if (found.clouds.found && (found.clouds.cloud[i] != 0 || found.clouds.shadow[i] != 0))
       clear[i] = 0;
     if (clear[i] == 0) continue;
     colours[i] = hue_saturation_of(smooth[i]);
+    if (static_cast<double>(altitude_m[i]) < parameters.snow_from_m &&
+        is_white(hue_saturation_of(picture[i]), parameters.clouds)) {
+      clear[i] = 0;
+      ++low_whites;
+      continue;
+    }
     ++used;
-    if (colours[i].grey) ++greys;
+    if (!colours[i].grey) continue;
+    ++greys;
+    colours[i].own_hue = parameters.grey_hue_deg.has_value();
+    colours[i].hue_deg = parameters.grey_hue_deg.value_or(colours[i].hue_deg);
   }
+  found.low_white_share =
+      static_cast<double>(low_whites) / static_cast<double>(std::max<std::size_t>(use.size(), 1));
   found.used_share =
       static_cast<double>(used) / static_cast<double>(std::max<std::size_t>(use.size(), 1));
   found.grey_share =

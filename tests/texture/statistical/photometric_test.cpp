@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/colour/hsv.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
@@ -32,18 +33,6 @@ Grid<glm::vec3> two_halves(Look upper, Look lower, std::uint64_t seed, int width
                             look.value + .2 * (even(seed + 2, x, y) - .5)});
     }
   return out;
-}
-
-TEST(Photometric, HueSaturationValueAndBack) {
-  EXPECT_EQ(to_hsv({1, 0, 0}), glm::dvec3(0, 1, 1));
-  EXPECT_NEAR(to_hsv({0, .5, 0}).x, 1.0 / 3.0, 1e-12);
-  EXPECT_NEAR(to_hsv({.25, .25, .5}).y, .5, 1e-12);
-  EXPECT_EQ(to_hsv({.4, .4, .4}), glm::dvec3(0, 0, .4));
-  for (int i = 0; i < 500; ++i) {
-    const glm::dvec3 rgb(even(1, i, 0), even(2, i, 0), even(3, i, 0));
-    const glm::dvec3 back = from_hsv(to_hsv(rgb));
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(back[c], rgb[c], 1e-12);
-  }
 }
 
 // Of a bright and a dark half, the dark one has the crop's hue: it resembles the bright crop more.

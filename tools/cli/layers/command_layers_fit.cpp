@@ -26,8 +26,10 @@
 #include "terrain/cover/layer_inputs.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_io.h"
+#include "terrain/layers/fit/fit_texture.h"
 #include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/fit/picture_classes.h"
+#include "terrain/layers/fit/picture_haze.h"
 #include "terrain/layers/layers_file.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/layers/ground_climate_options.h"
@@ -45,6 +47,11 @@ struct FitSources {
   std::string dem, image, classes, legend;
   std::string mask;     // cells that are left out; may be empty
   std::string regions;  // of a picture's colours; may be empty
+  std::vector<int>
+      bands;          // red, green, blue and shortwave infrared of `image`, from 1; may be empty
+  bool haze = false;  // take the blue cast out of the picture
+  std::optional<double> grey_hue_deg;
+  std::optional<double> snow_from_m;
 };
 
 // Findings for the terminal and for the report.
@@ -57,6 +64,7 @@ struct FitGround {
   Dem dem;
   Grid<std::uint8_t> use;  // 0: void, masked, outside the picture
   std::optional<Grid<glm::vec3>> rgb;
+  std::optional<Grid<float>> swir;  // shortwave infrared
 };
 
 RasterSource source_of(const std::string& path, int band = 1) {
@@ -79,6 +87,9 @@ RasterFrame frame_of(const Dem& dem) { return {dem.transform, dem.width(), dem.h
 FitGround read_picture_ground(const FitSources& from, FitFindings& findings, Progress& progress) {
   FitGround ground;
   if (!has_geography(from.image)) {
+    if (!from.bands.empty())
+      throw Error(ErrorKind::usage, "--bands", "a picture has red, green and blue only",
+                  "a GeoTIFF of more bands");
     ground.dem = read_layer_dem(from.dem, from.elevation, progress);
     const Grid<glm::vec3> picture = read_picture(from.image);
     if (picture.width() != ground.dem.width() || picture.height() != ground.dem.height())
@@ -93,10 +104,11 @@ FitGround read_picture_ground(const FitSources& from, FitFindings& findings, Pro
     for (glm::vec3& colour : *ground.rgb) colour *= 255.0F;
   } else {
     const RasterInfo info = read_raster_info(source_of(from.image));
-    if (info.bands < 3)
+    const std::vector<int> bands = from.bands.empty() ? std::vector{1, 2, 3} : from.bands;
+    if (const int last = *std::max_element(bands.begin(), bands.end()); info.bands < last)
       throw Error(ErrorKind::input, from.image,
                   fmt::format("{} band{}", info.bands, info.bands == 1 ? "" : "s"),
-                  "red, green and blue");
+                  from.bands.empty() ? "red, green and blue" : fmt::format("band {}", last));
     RasterFrame frame{info.transform, info.width, info.height, info.crs};
     if (info.crs.empty())
       throw Error(ErrorKind::usage, from.image, "no coordinate system", "a GeoTIFF that has one");
@@ -107,9 +119,13 @@ FitGround read_picture_ground(const FitSources& from, FitFindings& findings, Pro
       source.unit_to_m = 1.0;  // no altitudes
       return warp_rasters({source}, frame, progress).cells;
     };
-    const Grid<float> red = band(1);
-    const Grid<float> green = band(2);
-    const Grid<float> blue = band(3);
+    const Grid<float> red = band(bands[0]);
+    const Grid<float> green = band(bands[1]);
+    const Grid<float> blue = band(bands[2]);
+    if (bands.size() > 3) {
+      ground.swir = band(bands[3]);
+      for (float& value : *ground.swir) value = std::isfinite(value) ? value : 0.0F;
+    }
     ground.rgb = Grid<glm::vec3>(red.width(), red.height());
     for (std::size_t i = 0; i != red.size(); ++i) (*ground.rgb)[i] = {red[i], green[i], blue[i]};
     Raster<float> altitude = warp_rasters({source_of(from.dem)}, frame, progress);
@@ -137,6 +153,12 @@ FitGround read_picture_ground(const FitSources& from, FitFindings& findings, Pro
   if (max > 255.0F)
     throw Error(ErrorKind::input, from.image, fmt::format("values up to {}", max),
                 "8 bits, 0…255, as a picture is shown");
+  if (from.haze) {
+    const PictureHaze haze = find_haze(*ground.rgb, ground.dem.altitude_m, ground.use);
+    ground.rgb = without_haze(*ground.rgb, ground.dem.altitude_m, haze);
+    findings.note(fmt::format("haze taken out: {:.0f}, {:.0f}, {:.0f} of 255 at sea level",
+                              haze.at_sea_level.x, haze.at_sea_level.y, haze.at_sea_level.z));
+  }
   return ground;
 }
 
@@ -163,6 +185,9 @@ void classes_of_picture(const FitSources& from, const FitGround& ground, KnownGr
   if (!from.regions.empty())
     parameters.regions = read_colour_regions(
         from.regions, [](const std::string& path) { return read_picture(path); });
+  parameters.swir = ground.swir ? &*ground.swir : nullptr;
+  parameters.grey_hue_deg = from.grey_hue_deg;
+  parameters.snow_from_m = from.snow_from_m.value_or(parameters.snow_from_m);
   PictureClasses found =
       picture_classes(*ground.rgb, known.altitude_m, known.cell_m, ground.use, parameters);
   const auto share = [](const Grid<std::uint8_t>& mask) {
@@ -170,7 +195,10 @@ void classes_of_picture(const FitSources& from, const FitGround& ground, KnownGr
     for (const std::uint8_t m : mask) set += m;
     return 100.0 * static_cast<double>(set) / static_cast<double>(mask.size());
   };
-  if (found.clouds.found)
+  if (found.clouds.found && !found.clouds.shadows)
+    findings.note(fmt::format("clouds cover {:.1f} %, by their infrared; no shadows match them",
+                              share(found.clouds.cloud)));
+  else if (found.clouds.found)
     findings.note(fmt::format(
         "clouds cover {:.1f} %, their shadows {:.1f} %, {} cells {} and {} {} of them: the sun "
         "stands at azimuth {:.0f}°",
@@ -189,9 +217,12 @@ void classes_of_picture(const FitSources& from, const FitGround& ground, KnownGr
     findings.note(fmt::format("{} classes by hue and saturation, of {} parts of a mixture",
                               found.classes.size(), found.parts));
   findings.note(fmt::format("{:.1f} % of the ground in use is grey", 100.0 * found.grey_share));
+  if (from.snow_from_m)
+    findings.note(fmt::format("{:.1f} % are white below {:g} m and left out",
+                              100.0 * found.low_white_share, *from.snow_from_m));
   known.classes = std::move(found.classes);
   known.labels = std::move(found.labels);
-  known.picture = FitPicture{*ground.rgb, found.clouds.found
+  known.picture = FitPicture{*ground.rgb, found.clouds.shadows
                                               ? std::optional<double>(found.clouds.sun_azimuth_deg)
                                               : std::nullopt};
 }
@@ -276,6 +307,7 @@ struct LayersFitOptions {
   GroundClimateOptions climate;
   std::string functions = "fitted";
   std::string model = "product";
+  std::optional<double> smoothing, roughness;
   std::vector<std::string> inputs;
   int threads = 0;
   bool quiet = false;
@@ -296,6 +328,17 @@ void check_options(const LayersFitOptions& options) {
     refuse("--model", options.model, "product, additive");
   if (options.functions == "histogram" && options.model != "product")
     refuse("--functions", "histograms are functions of a product", "--model product");
+  if (options.smoothing && (options.functions != "histogram" || !(*options.smoothing >= 0.0)))
+    refuse("--smoothing", fmt::format("{:g}", *options.smoothing),
+           "0 or more samples, with --functions histogram");
+  if (options.roughness && (options.functions != "fitted" || !(*options.roughness >= 0.0)))
+    refuse("--roughness", fmt::format("{:g}", *options.roughness),
+           "0 or more, with --functions fitted");
+  if (!options.from.bands.empty() &&
+      (options.from.bands.size() < 3 || options.from.bands.size() > 4 ||
+       *std::min_element(options.from.bands.begin(), options.from.bands.end()) < 1))
+    refuse("--bands", fmt::format("{} bands", options.from.bands.size()),
+           "numbers from 1: RED,GREEN,BLUE or RED,GREEN,BLUE,INFRARED");
   if (!options.out.ends_with(".toml"))
     refuse(options.out, "is not the name of a layers file", "NAME.layers.toml");
   if (!options.from.legend.empty()) read_legend(options.from.legend);  // refuses what is none
@@ -343,7 +386,8 @@ void refuse_cloud(const LayersFitOptions& options, const KnownGround& known, con
       "a picture that shows the ground");
 }
 
-void note_fit(const KnownGround& known, const GroundFit& fit, FitFindings& findings) {
+void note_fit(const KnownGround& known, const GroundFit& fit, const GroundPrediction& prediction,
+              const std::vector<ClassTexture>& textures, FitFindings& findings) {
   if (known.picture)
     findings.note(
         fmt::format("sun estimated at azimuth {:.0f}°, {:.0f}° high: its light and the picture "
@@ -353,14 +397,17 @@ void note_fit(const KnownGround& known, const GroundFit& fit, FitFindings& findi
       count_labels(known.labels, static_cast<int>(known.classes.size()));
   std::size_t total = 0;
   for (const std::size_t c : counts) total += c;
-  const std::vector<double> predicted =
-      mean_shares(predict_ground(known, fit).classes, known.labels);
+  const std::vector<double> predicted = mean_shares(prediction.classes, known.labels);
   for (const int k_int : fit.classes.order) {
     const auto k = static_cast<std::size_t>(k_int);
     findings.note(fmt::format(
         "{}: {:.1f} % of the ground, {:.1f} % as fitted, {} colours", known.classes[k].name,
         100.0 * static_cast<double>(counts[k]) / static_cast<double>(total), 100.0 * predicted[k],
         std::count(fit.parent.begin(), fit.parent.end(), k_int)));
+    if (const ClassTexture& texture = textures[k]; texture.strength > 0.0)
+      findings.note(
+          fmt::format("  texture: patches up to {:.0f} m, gain {:.2f}, bumps of ±{:.1f} m",
+                      texture.noise.scale_m, texture.noise.gain, texture.roughness_m));
   }
   if (fit.classes.saturated > 0)
     findings.note(
@@ -386,11 +433,16 @@ int run(const LayersFitOptions& options) {
   parameters.model = options.model == "product" ? LayerModel::product : LayerModel::additive;
   parameters.functions =
       options.functions == "fitted" ? FunctionSource::fitted : FunctionSource::histogram;
+  parameters.smoothing = options.smoothing.value_or(parameters.smoothing);
+  parameters.roughness = options.roughness;
   const GroundFit fit = fit_ground(known, parameters);
   if (known.picture) refuse_cloud(options, known, fit);
-  note_fit(known, fit, findings);
+  const GroundPrediction prediction = predict_ground(known, fit);
+  const std::vector<ClassTexture> textures = class_textures(known, fit, prediction);
+  note_fit(known, fit, prediction, textures, findings);
   const std::string name = file_name(options.out).substr(0, file_name(options.out).find('.'));
-  const SurfaceLayers layers = surface_layers_of(known, fit, name);
+  const SurfaceLayers layers =
+      with_textures(surface_layers_of(known, fit, name), known, fit, textures);
   const std::string text = surface_layers_text(layers);
   if (!options.report.empty())
     write_layers_fit_report(
@@ -463,6 +515,22 @@ Action add_layers_fit(CommandOptions& command) {
       .type_name("FILE")
       .files(FileUse::input);
   command
+      .add_option("--bands", options->from.bands,
+                  "Bands of the image for red, green and blue, from 1, and for shortwave infrared, "
+                  "which tells snow from clouds: R,G,B[,I]. Default: 1,2,3")
+      .list(',')
+      .type_name("N");
+  command.add_flag("--haze", options->from.haze,
+                   "Take the blue cast of the air out of a picture in natural colours");
+  command
+      .add_option("--grey-hue", options->from.grey_hue_deg,
+                  "Give greys a hue of their own, as first published, such as 300 for purple")
+      .type_name("DEG");
+  command
+      .add_option("--snow-from", options->from.snow_from_m,
+                  "Lowest altitude of snow: white below it is not learned from, m")
+      .type_name("M");
+  command
       .add_option("--functions", options->functions,
                   "How functions are found: fitted by likelihood (the default), or histogram, as "
                   "first published")
@@ -472,6 +540,15 @@ Action add_layers_fit(CommandOptions& command) {
                   "product (the default): coverage is the product of functions; additive: shares "
                   "by their sum, finer, larger")
       .type_name("NAME");
+  command
+      .add_option("--smoothing", options->smoothing,
+                  "Blur of histograms, in 256ths of an input's range. Default: 2")
+      .type_name("SAMPLES");
+  command
+      .add_option("--roughness", options->roughness,
+                  "Penalty on steps of fitted functions; larger is smoother. Default: 0.0006 for a "
+                  "product, 0.002 for a sum")
+      .type_name("WEIGHT");
   command
       .add_option("--inputs", options->inputs,
                   "Inputs of the functions, instead of those that suit the model: altitude,slope,… "
