@@ -71,19 +71,18 @@ double spline_correlation(double x) {
 }
 
 // The energy of one octave of layer noise of weight 1, in blocks of `block` cells, its lattice
-// `spacing` cells wide. Lattice values have a variance of 1/3; blocks are areas, in quarters of
-// cells.
+// `spacing` cells wide. Lattice values have a variance of 1/3. Cells count as points: what their
+// averaging takes, octaves below a cell give back. On area means of known noise this finds its gain
+// within .1; counted as areas it would be .1 too high.
 double octave_energy(int block, double spacing) {
-  constexpr int parts = 4;
-  const int n = parts * block;
   const auto covariance = [&](int lag) {
     double sum = 0.0;
-    for (int a = 1 - n; a < n; ++a)
-      sum += (n - std::abs(a)) * spline_correlation((lag + a) / (parts * spacing));
-    return sum / (static_cast<double>(n) * n);
+    for (int a = 1 - block; a < block; ++a)
+      sum += (block - std::abs(a)) * spline_correlation((lag + a) / spacing);
+    return sum / (static_cast<double>(block) * block);
   };
   const double own = covariance(0);
-  return 2.0 / 3.0 * own * (own - covariance(n));
+  return 2.0 / 3.0 * own * (own - covariance(block));
 }
 
 // Octaves from 2^coarsest cells down to an eighth of a cell.
