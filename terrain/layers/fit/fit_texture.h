@@ -17,7 +17,7 @@ struct ClassTexture {
 };
 
 // The texture of each class, from the evenly lit picture less its expected colours. The energy of
-// differences of neighbouring blocks of 1, 2 … 16 cells, as of areas, is fitted by octaves of
+// differences of neighbouring blocks of 1, 2 … 16 cells is fitted by octaves of
 // noise: the slope of the spectrum by their ratio. Classes with too few cells have none, and none
 // has without a picture.
 std::vector<ClassTexture> class_textures(const KnownGround& ground, const GroundFit& fit,

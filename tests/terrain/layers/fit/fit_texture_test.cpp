@@ -130,20 +130,6 @@ double spectral_slope(const Grid<float>& values, int low) {
   return (count * xy - x_sum * y_sum) / (count * xx - x_sum * x_sum);
 }
 
-// Octaves of 4 to 8 cells exist in the picture and in the layers drawn eight times finer: the
-// spectrum has the same slope, and goes on below a cell instead of ending there.
-TEST(FitTexture, SpectrumOfThePictureGoesOn) {
-  const Imagery made = imagery(0.8);
-  const Grid<float> drawn = lightness(picture_of(made, fitted(made), finer));
-  EXPECT_NEAR(spectral_slope(drawn, side / 8),
-              spectral_slope(lightness(made.ground.picture->rgb), side / 8), 0.3);
-  EXPECT_GT(spectral_slope(drawn, side), -4.0) << "one to half a cell";
-  const GroundFit fit = fit_ground(made.ground, {});
-  const Grid<float> smooth =
-      lightness(picture_of(made, surface_layers_of(made.ground, fit, "test"), finer));
-  EXPECT_LT(spectral_slope(smooth, side), -5.0) << "without noise it ends";
-}
-
 double deviation(const Grid<float>& values) {
   double sum = 0.0, squares = 0.0;
   for (const float v : values) {
@@ -152,6 +138,29 @@ double deviation(const Grid<float>& values) {
   }
   const auto count = static_cast<double>(values.size());
   return std::sqrt(squares / count - sum / count * (sum / count));
+}
+
+// Standard deviation within the cells of the picture.
+double detail(const Grid<float>& fine) {
+  const Grid<float> cells = area_means(fine, finer);
+  Grid<float> left = fine;
+  for (int y = 0; y != left.height(); ++y)
+    for (int x = 0; x != left.width(); ++x) left(x, y) -= cells(x / finer, y / finer);
+  return deviation(left);
+}
+
+// Waves of 4 to 8 cells exist in the picture and in the layers drawn eight times finer: there, as
+// means over the picture's cells, the spectrum has the same slope; and it goes on within cells.
+TEST(FitTexture, SpectrumOfThePictureGoesOn) {
+  const Imagery made = imagery(0.8);
+  const Grid<float> drawn = lightness(picture_of(made, fitted(made), finer));
+  EXPECT_NEAR(spectral_slope(area_means(drawn, finer), side / 8),
+              spectral_slope(lightness(made.ground.picture->rgb), side / 8), 0.3);
+  EXPECT_GT(spectral_slope(drawn, side / 2), -3.5) << "from two cells to one";
+  const GroundFit fit = fit_ground(made.ground, {});
+  const Grid<float> smooth =
+      lightness(picture_of(made, surface_layers_of(made.ground, fit, "test"), finer));
+  EXPECT_GT(detail(drawn), 3.0 * detail(smooth)) << "without noise cells are smooth";
 }
 
 // Colours vary as in the picture (at most: a file has few colours), and their mean is the same at
