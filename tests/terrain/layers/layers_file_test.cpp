@@ -45,7 +45,7 @@ SurfaceLayers rich() {
   grass.rgb = 0x00ff07;
   grass.roughness_m = 0.25;
   grass.roughness_scale_m = 2.0;
-  grass.noise = {120.5, 7, 0.1, 0.7};
+  grass.noise = {120.5, 7, 0.1, 0.7, 0.85};
   grass.functions = {LayerHat{100.0, 2500.0, 20.0, 200.0}, samples, {}};
   SurfaceLayer dry = grass;
   dry.name = "dry";
@@ -92,6 +92,7 @@ void expect_equal(const SurfaceLayers& a, const SurfaceLayers& b) {
     EXPECT_EQ(p.noise.octaves, q.noise.octaves);
     EXPECT_EQ(p.noise.amplitude, q.noise.amplitude);
     EXPECT_EQ(p.noise.bias, q.noise.bias);
+    EXPECT_EQ(p.noise.gain, q.noise.gain);
     EXPECT_EQ(p.when, q.when);
     ASSERT_EQ(p.functions.size(), q.functions.size());
     for (std::size_t i = 0; i < p.functions.size(); ++i) {
@@ -107,6 +108,7 @@ void expect_equal(const SurfaceLayers& a, const SurfaceLayers& b) {
         EXPECT_EQ(samples->at_0, other.at_0);
         EXPECT_EQ(samples->at_255, other.at_255);
         EXPECT_EQ(samples->samples, other.samples);
+        EXPECT_EQ(samples->knots, other.knots);
       }
     }
   }
@@ -136,6 +138,34 @@ TEST(LayersFile, SamplesAreBase64) {
   const std::string text = surface_layers_text(layers);
   EXPECT_THAT(text, HasSubstr("samples = \"AAECAwQFBgcICQoLDA0ODxAREhMUFRYXGBkaGxwdHh8gISIjJCUm"));
   EXPECT_THAT(text, HasSubstr("8PHy8/T19vf4+fr7/P3+/w==\""));
+}
+
+// Functions of few values are plain numbers in the unit of the function.
+TEST(LayersFile, KnotsArePlainNumbers) {
+  const auto read = [](const std::string& model, const std::string& function) {
+    return parse_surface_layers("version = 1\nmodel = \"" + model +
+                                    "\"\n[[inputs]]\nname = \"slope\"\nlow = 0\nhigh = 90\n" +
+                                    "[[layers]]\nname = \"a\"\nfunctions = { slope = " + function +
+                                    " }\n",
+                                "x.toml");
+  };
+  const SurfaceLayers hill = read("product", "{ values = [0, 0.5, 1, 0.25] }");
+  for (const auto& [slope, value] :
+       {std::pair{45.0, 0.75}, {30.0, 0.5}, {15.0, 0.25}, {75.0, 0.625}})
+    EXPECT_NEAR(
+        layer_function_value(hill.layers[0].functions[0], hill.inputs[0], hill.model, slope), value,
+        0.005)
+        << slope;
+  EXPECT_THAT(surface_layers_text(hill), HasSubstr("values = [0, 0.502, 1, 0.251]"));
+  const SurfaceLayers sum = read("additive", "{ values = [-2, 1.5, 3] }");
+  EXPECT_NEAR(layer_function_value(sum.layers[0].functions[0], sum.inputs[0], sum.model, 45.0), 1.5,
+              0.02);
+  const std::string text = surface_layers_text(sum);
+  EXPECT_THAT(text, HasSubstr("from = -2, to = 3, values = [-2, 1.5"));
+  EXPECT_EQ(surface_layers_text(parse_surface_layers(text, "x.toml")), text);
+  EXPECT_THROW(read("product", "{ values = [0, 1.5] }"), Error);
+  EXPECT_THROW(read("product", "{ values = [1] }"), Error);
+  EXPECT_THROW(read("product", "{ values = [0, 1], samples = \"AP8=\" }"), Error);
 }
 
 // Fewer values lie at even distances from end to end, with straight lines between them.

@@ -69,10 +69,15 @@ Imagery imagery(double gain) {
   return made;
 }
 
-SurfaceLayers fitted(const Imagery& made) {
+struct Fitted {
+  SurfaceLayers plain;
+  SurfaceLayers textured;
+};
+Fitted fitted(const Imagery& made) {
   const GroundFit fit = fit_ground(made.ground, {});
-  return with_textures(surface_layers_of(made.ground, fit, "test"), made.ground, fit,
-                       class_textures(made.ground, fit, predict_ground(made.ground, fit)));
+  SurfaceLayers plain = surface_layers_of(made.ground, fit, "test");
+  return {plain, with_textures(plain, made.ground, fit,
+                               class_textures(made.ground, fit, predict_ground(made.ground, fit)))};
 }
 
 Grid<float> lightness(const Grid<glm::vec3>& rgb) {
@@ -86,6 +91,17 @@ Grid<glm::vec3> picture_of(const Imagery& made, const SurfaceLayers& layers, int
   return layer_surface(program, make_layer_ground(made.dem, {}, program.inputs), factor,
                        {0, 0, side * factor, side * factor}, 1)
       .colour;
+}
+
+// Made once for all tests.
+struct Example {
+  Imagery made = imagery(0.75);
+  Fitted file = fitted(made);
+  Grid<glm::vec3> fine = picture_of(made, file.textured, finer);
+};
+const Example& example() {
+  static const Example made;
+  return made;
 }
 
 // Slope of the logarithm of the mean spectrum of rows and columns over that of the frequency, from
@@ -152,24 +168,21 @@ double detail(const Grid<float>& fine) {
 // Waves of 4 to 8 cells exist in the picture and in the layers drawn eight times finer: there, as
 // means over the picture's cells, the spectrum has the same slope; and it goes on within cells.
 TEST(FitTexture, SpectrumOfThePictureGoesOn) {
-  const Imagery made = imagery(0.8);
-  const Grid<float> drawn = lightness(picture_of(made, fitted(made), finer));
+  const Imagery& made = example().made;
+  const Grid<float> drawn = lightness(example().fine);
   EXPECT_NEAR(spectral_slope(area_means(drawn, finer), side / 8),
               spectral_slope(lightness(made.ground.picture->rgb), side / 8), 0.3);
   EXPECT_GT(spectral_slope(drawn, side / 2), -3.5) << "from two cells to one";
-  const GroundFit fit = fit_ground(made.ground, {});
-  const Grid<float> smooth =
-      lightness(picture_of(made, surface_layers_of(made.ground, fit, "test"), finer));
+  const Grid<float> smooth = lightness(picture_of(made, example().file.plain, finer));
   EXPECT_GT(detail(drawn), 3.0 * detail(smooth)) << "without noise cells are smooth";
 }
 
 // Colours vary as in the picture (at most: a file has few colours), and their mean is the same at
 // both resolutions.
 TEST(FitTexture, ColoursVaryAndKeepTheirMean) {
-  const Imagery made = imagery(0.7);
-  const SurfaceLayers layers = fitted(made);
-  const Grid<glm::vec3> coarse = picture_of(made, layers, 1);
-  const Grid<glm::vec3> fine = picture_of(made, layers, finer);
+  const Imagery& made = example().made;
+  const Grid<glm::vec3> coarse = picture_of(made, example().file.textured, 1);
+  const Grid<glm::vec3>& fine = example().fine;
   const auto mean = [](const Grid<glm::vec3>& rgb) {
     glm::dvec3 sum(0.0);
     for (const glm::vec3& c : rgb) sum += glm::dvec3(c);
@@ -187,7 +200,7 @@ TEST(FitTexture, ColoursVaryAndKeepTheirMean) {
 
 // P27, P32: children of a class, in colour and in noise.
 TEST(FitTexture, ChildrenVaryInColourAndNoise) {
-  const SurfaceLayers layers = fitted(imagery(0.7));
+  const SurfaceLayers& layers = example().file.textured;
   std::size_t roots = 0;
   std::set<double> scales;
   double least_hue = 360.0;
@@ -245,7 +258,8 @@ TEST(FitTexture, ThereIsNoneWithoutAPicture) {
   for (const ClassTexture& texture :
        class_textures(made.ground, fit, predict_ground(made.ground, fit)))
     EXPECT_EQ(texture.strength, 0.0);
-  for (const SurfaceLayer& layer : fitted(made).layers) EXPECT_EQ(layer.noise.amplitude, 0.0);
+  for (const SurfaceLayer& layer : fitted(made).textured.layers)
+    EXPECT_EQ(layer.noise.amplitude, 0.0);
 }
 
 }  // namespace

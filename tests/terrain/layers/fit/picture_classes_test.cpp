@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -101,6 +102,93 @@ TEST(FindClouds, OffsetAndSunAreThoseOfTheShadows) {
       EXPECT_EQ(picture[i].x, 40.0F);
     }
   }
+}
+
+// With shortwave infrared white is snow where it is dark there, and cloud where it is bright,
+// though no shadow matches.
+TEST(FindClouds, InfraredTellsSnowFromCloud) {
+  const Grid<glm::vec3> picture = clouded(-24, -32, false);
+  Grid<float> swir(picture.width(), picture.height(), 90.F);
+  for (int y = 0; y != picture.height(); ++y)
+    for (int x = 0; x != picture.width(); ++x)
+      if (picture(x, y).x == 235.F) swir(x, y) = x < 120 ? 30.F : 220.F;  // snow in the west
+  const Clouds clouds = find_clouds(picture, 30.0, {}, &swir);
+  EXPECT_TRUE(clouds.found);
+  EXPECT_FALSE(clouds.shadows);
+  int cloud = 0;
+  for (int y = 0; y != picture.height(); ++y)
+    for (int x = 0; x != picture.width(); ++x) {
+      if (x < 110) {
+        ASSERT_EQ(clouds.cloud(x, y), 0) << x << ' ' << y;
+      }
+      if (x > 130 && picture(x, y).x == 235.F) cloud += clouds.cloud(x, y);
+    }
+  EXPECT_GT(cloud, 100);
+  for (float& value : swir) value = std::min(value, 30.F);
+  EXPECT_FALSE(find_clouds(picture, 30.0, {}, &swir).found) << "all is snow";
+}
+
+// Found classes: white low down is not snow.
+TEST(PictureClasses, WhiteBelowTheLowestSnowIsLeftOut) {
+  const Grid<float> ground = synthetic::hills(120, 120);
+  synthetic::Picture picture = synthetic::seven_classes(ground, {140.0, 40.0}, 4.0);
+  for (std::size_t i = 0; i != ground.size(); ++i)
+    if (ground[i] > 300.F || (i % 120 < 12 && ground[i] < 0.F)) picture.rgb[i] = glm::vec3(230.F);
+  PictureClassParameters parameters;
+  parameters.chroma_sigma_cells = 0.0;
+  parameters.snow_from_m = 200.0;
+  parameters.clouds.min_match = 2.0;  // no clouds
+  const PictureClasses found =
+      picture_classes(picture.rgb, ground, 30.0, Grid<std::uint8_t>(120, 120, 1), parameters);
+  std::size_t low = 0;
+  std::size_t high = 0;
+  std::size_t high_found = 0;
+  for (std::size_t i = 0; i != ground.size(); ++i)
+    if (i % 120 < 12 && ground[i] < 0.F) {
+      ++low;
+      EXPECT_EQ(found.labels[i], no_class);
+    } else if (ground[i] > 300.F) {
+      ++high;
+      high_found += found.labels[i] != no_class ? 1U : 0U;
+    }
+  EXPECT_GT(low, 100U);
+  EXPECT_GT(static_cast<double>(high_found), 0.8 * static_cast<double>(high));
+  EXPECT_GE(found.low_white_share, static_cast<double>(low) / (120.0 * 120.0));
+}
+
+// Greys beside a brown so pale that both lie near the centre of the plane: one class as usual, two
+// where greys have a hue of their own, as first published.
+TEST(PictureClasses, GreysMayHaveAHueOfTheirOwn) {
+  const Grid<float> ground = synthetic::hills(100, 100);
+  Grid<glm::vec3> picture(100, 100);
+  std::vector<std::uint8_t> made;
+  for (std::size_t i = 0; i != picture.size(); ++i) {
+    const bool grey = i % 100 < 50;
+    made.push_back(grey ? 1 : 0);
+    const auto noise = [&](int c) {
+      return static_cast<float>(1.5 * random_normal(6, static_cast<std::int64_t>(i), c));
+    };
+    picture[i] = (grey ? glm::vec3(120.F) : glm::vec3(132.F, 122.F, 112.F)) +
+                 glm::vec3(noise(0), noise(1), noise(2));
+  }
+  PictureClassParameters parameters;
+  parameters.chroma_sigma_cells = 0.0;
+  parameters.grey_hue_deg = 300.0;
+  const PictureClasses own =
+      picture_classes(picture, ground, 30.0, Grid<std::uint8_t>(100, 100, 1), parameters);
+  EXPECT_FALSE(own.lightness);
+  EXPECT_GT(test::adjusted_rand_index(own.labels, made), 0.95);
+  EXPECT_NEAR(own.grey_share, 0.5, 0.03);
+  // Drawn regions see the hue too.
+  ColourRegion purple;
+  purple.of.name = "grey";
+  purple.hue_deg = glm::dvec2(290.0, 310.0);
+  ColourRegion rest;
+  rest.of.name = "rest";
+  parameters.regions = {purple, rest};
+  const PictureClasses drawn =
+      picture_classes(picture, ground, 30.0, Grid<std::uint8_t>(100, 100, 1), parameters);
+  EXPECT_GT(test::adjusted_rand_index(drawn.labels, made), 0.9);
 }
 
 // Snow casts no shadow a kilometre away.

@@ -88,6 +88,64 @@ TEST_F(LayersFitCommand, LearnsAPictureAndSaysWhatItFound) {
   EXPECT_EQ(read_surface_layers(path("out.layers.toml")).model, LayerModel::additive);
 }
 
+// Classes by hand, through the command: the file has their names and classes, in the places of the
+// picture; colours outside all regions are not learned from.
+TEST_F(LayersFitCommand, RegionsDrawnByHandAreTheClasses) {
+  write("regions.toml",
+        "[[region]]\nname = \"stone\"\nclass = \"rock\"\nhue_deg = [10, 60]\n"
+        "[[region]]\nname = \"meadow\"\nclass = \"pasture\"\nhue_deg = [80, 160]\n");
+  ASSERT_THAT(fit({"--image", path("picture.png"), "--regions", path("regions.toml")}),
+              Prints(AllOf(HasSubstr("2 classes by 2 regions drawn"), HasSubstr("texture: "))));
+  const SurfaceLayers layers = read_surface_layers(path("out.layers.toml"));
+  std::vector<std::string> roots;
+  for (const SurfaceLayer& layer : layers.layers)
+    if (layer.parent < 0) roots.push_back(layer.name);
+  EXPECT_THAT(roots, ::testing::UnorderedElementsAre("stone", "meadow"));
+  EXPECT_EQ(layers.ground_painted_as, LandCoverClass::pasture);
+  const Outcome applied = run({"layers", "apply", path("out.layers.toml"), "--dem", path("dem.tif"),
+                               "--out", path("c.tif")});
+  ASSERT_EQ(applied.status, 0) << applied.err;
+  RasterSource source;
+  source.path = path("c.tif");
+  const Grid<std::int32_t> classes = read_codes(source).cells;
+  EXPECT_EQ(classes(40, 40), static_cast<int>(LandCoverClass::rock));
+  EXPECT_EQ(classes(2, 2), static_cast<int>(LandCoverClass::pasture));
+  EXPECT_THAT(fit({"--image", path("picture.png"), "--regions", path("none.toml")}), Ends(3));
+}
+
+TEST_F(LayersFitCommand, FunctionsAreAsSmoothAsAsked) {
+  const auto steps = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = by_map();
+    arguments.insert(arguments.end(), {"--inputs", "altitude"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_THAT(fit(arguments), Ends(0));
+    const SurfaceLayers layers = read_surface_layers(path("out.layers.toml"));
+    double squares = 0.0;
+    for (const LayerFunction& function : layers.layers[1].functions)
+      if (const auto* of = std::get_if<LayerSamples>(&function))
+        for (std::size_t i = 1; i != 256; ++i)
+          squares += std::pow(of->samples[i] - of->samples[i - 1], 2.0);
+    return squares;
+  };
+  EXPECT_LT(steps({"--roughness", "0.1"}), 0.7 * steps({"--roughness", "0.0001"}));
+  EXPECT_LT(steps({"--functions", "histogram", "--smoothing", "12"}),
+            0.7 * steps({"--functions", "histogram", "--smoothing", "0.5"}));
+  std::vector<std::string> arguments = by_map();
+  arguments.insert(arguments.end(), {"--smoothing", "3"});
+  EXPECT_THAT(fit(arguments), Ends(2, HasSubstr("--functions histogram")));
+}
+
+// Bands in another order than red, green, blue, and one of infrared.
+TEST_F(LayersFitCommand, PicturesMayHaveOtherBandsAndHaze) {
+  EXPECT_THAT(fit({"--image", path("picture.png"), "--bands", "3,2,1"}),
+              Ends(2, HasSubstr("a GeoTIFF of more bands")));
+  EXPECT_THAT(fit({"--image", path("picture.png"), "--bands", "3,2"}),
+              Ends(2, HasSubstr("RED,GREEN,BLUE,INFRARED")));
+  EXPECT_THAT(
+      fit({"--image", path("picture.png"), "--haze", "--snow-from", "2400", "--grey-hue", "300"}),
+      Prints(AllOf(HasSubstr("haze taken out"), HasSubstr("white below 2400 m"))));
+}
+
 TEST_F(LayersFitCommand, WritesTheSameFileForAnyThreads) {
   std::vector<std::string> arguments = {"--image", path("picture.png"), "--threads", "1"};
   ASSERT_EQ(fit(arguments).status, 0);
