@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t levels = 5;  // of blocks, 1…16 cells along a side
 // The finest blocks count little: what a sensor adds to single cells is not the ground's.
-constexpr std::array<double, levels> level_weight = {1.0, 4.0, 4.0, 2.0, 1.0};
+constexpr std::array<double, levels> block_weight = {1.0, 4.0, 4.0, 2.0, 1.0};
 using Energies = std::array<double, levels>;  // NaN: unknown
 
 double lightness_of(const glm::vec3& rgb) {
@@ -134,13 +134,13 @@ ClassTexture fit_spectrum(const Energies& energies, double cell_m) {
           model += weight * weight * table[at][j];
         }
         ratio[j] = exact::log(energies[j] / model);
-        mean += level_weight[j] * ratio[j];
-        total += level_weight[j];
+        mean += block_weight[j] * ratio[j];
+        total += block_weight[j];
       }
       mean /= total;
       double off = 0.0;
       for (std::size_t j = 0; j != levels; ++j)
-        if (energies[j] > 0.0) off += level_weight[j] * square(ratio[j] - mean);
+        if (energies[j] > 0.0) off += block_weight[j] * square(ratio[j] - mean);
       if (off >= min) continue;
       min = off;
       best.noise = {std::round(10.0 * cell_m * exact::exp2(coarsest)) / 10.0, octaves, 0.0, 1.0,

@@ -203,8 +203,8 @@ TEST(FitTexture, ChildrenVaryInColourAndNoise) {
   const SurfaceLayers& layers = example().file.textured;
   std::size_t roots = 0;
   std::set<double> scales;
-  double least_hue = 360.0;
-  double most_hue = 0.0;
+  double min_hue = 360.0;
+  double max_hue = 0.0;
   std::size_t children = 0;
   for (const SurfaceLayer& layer : layers.layers) {
     const glm::dvec3 rgb(layer.rgb >> 16U, layer.rgb >> 8U & 255U, layer.rgb & 255U);
@@ -213,14 +213,14 @@ TEST(FitTexture, ChildrenVaryInColourAndNoise) {
     ++children;
     EXPECT_GT(layer.noise.amplitude, 0.0) << layer.name;
     scales.insert(layer.noise.scale_m);
-    least_hue = std::min(least_hue, hue_saturation_of(rgb).hue_deg);
-    most_hue = std::max(most_hue, hue_saturation_of(rgb).hue_deg);
+    min_hue = std::min(min_hue, hue_saturation_of(rgb).hue_deg);
+    max_hue = std::max(max_hue, hue_saturation_of(rgb).hue_deg);
   }
   EXPECT_EQ(roots, 2U);
   EXPECT_EQ(children, 3U) << "and the class's own colour";
   EXPECT_EQ(scales.size(), children) << "each has noise of its own";
-  EXPECT_GT(most_hue - least_hue, 3.0);
-  EXPECT_LT(most_hue - least_hue, 60.0);
+  EXPECT_GT(max_hue - min_hue, 3.0);
+  EXPECT_LT(max_hue - min_hue, 60.0);
 }
 
 // What light explains becomes bumps: a picture of grey ground lit by a known sun, with slopes finer
