@@ -57,6 +57,11 @@ ColourRegion region_of(const ConfigValue& table, const std::string& name,
       refuse_value(*colour, name, "the picture has no pixels of colour " + as_string(*colour, name),
                    "a colour of the picture");
   }
+  if (reader.known("shown") != nullptr) {
+    glm::vec3 shown{};
+    reader.colour("shown", shown);
+    region.of.shown = 255.F * shown;
+  }
   if (const ConfigValue* grey = reader.known("grey")) region.grey = as_bool(*grey, name);
   glm::dvec2 hue_deg(-1.0);
   reader.pair("hue_deg", hue_deg, 0.0, 360.0);

@@ -121,6 +121,21 @@ LeafLayers leaf_layers(const KnownGround& ground, const GroundFit& fit, const st
   layers.model = fit.classes.model;
   layers.inputs = fit.ranges;
   const bool product = layers.model == LayerModel::product;
+  const auto colour_of = [&](int leaf) {
+    const glm::dvec3& own = fit.colours[static_cast<std::size_t>(leaf)];
+    const int k = fit.parent[static_cast<std::size_t>(leaf)];
+    const std::optional<glm::vec3>& shown = ground.classes[static_cast<std::size_t>(k)].shown;
+    if (!shown) return packed(own);
+    glm::dvec3 sum(0.0);
+    double cells = 1e-9;
+    for (std::size_t j = 0; j != fit.parent.size(); ++j) {
+      if (fit.parent[j] != k) continue;
+      sum += static_cast<double>(fit.cells[j]) * fit.colours[j];
+      cells += static_cast<double>(fit.cells[j]);
+    }
+    const glm::dvec3 lighter = own - sum / cells;
+    return packed(glm::dvec3(*shown) + (lighter.x + lighter.y + lighter.z) / 3.0);
+  };
   for (const int k_int : fit.classes.order) {
     const auto k = static_cast<std::size_t>(k_int);
     const int first = static_cast<int>(std::find(fit.parent.begin(), fit.parent.end(), k_int) -
@@ -133,7 +148,7 @@ LeafLayers leaf_layers(const KnownGround& ground, const GroundFit& fit, const st
     const int index = static_cast<int>(layers.layers.size());
     // In a product the first child covers its class entirely: the class's own colour.
     const int own = order.empty() ? first : first + order[0];
-    layer.rgb = packed(fit.colours[static_cast<std::size_t>(own)]);
+    layer.rgb = colour_of(own);
     layers.layers.push_back(layer);
     if (index == 0) out.leaf_of.push_back(own);
     out.leaf_of.push_back(product || order.empty() ? own : -1);
@@ -141,7 +156,7 @@ LeafLayers leaf_layers(const KnownGround& ground, const GroundFit& fit, const st
       SurfaceLayer child;
       child.name = fmt::format("{}, colour {}", layer.name, rank + 1);
       child.parent = index;
-      child.rgb = packed(fit.colours[static_cast<std::size_t>(first + order[rank])]);
+      child.rgb = colour_of(first + order[rank]);
       set_functions(child, fit.children[k], static_cast<std::size_t>(order[rank]));
       layers.layers.push_back(std::move(child));
       out.leaf_of.push_back(first + order[rank]);

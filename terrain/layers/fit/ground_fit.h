@@ -21,6 +21,9 @@ struct FitClass {
   std::string name;
   std::optional<LandCoverClass> painted_as;
   std::uint32_t rgb = 0x808080;  // used without a picture
+  std::optional<glm::vec3> shown =
+      {};  // 0…255, in place of the picture's colours in a file, which
+           // may be false; children keep their lightness relative to it
 };
 
 // An orthophoto, cell for cell.

@@ -43,6 +43,15 @@ grey = true
   EXPECT_FALSE(holds(regions[3], {300.0, 0.4, 0.5, false}, 0.0));
 }
 
+TEST(ColourRegions, MayBeShownInAnotherColour) {
+  const std::vector<ColourRegion> regions = parse_colour_regions(
+      "[[region]]\nname = \"ice\"\nshown = \"#e0e8ff\"\n[[region]]\nname = \"rock\"\n", "x.toml");
+  ASSERT_TRUE(regions[0].of.shown.has_value());
+  EXPECT_NEAR(regions[0].of.shown->x, 224.0, 0.01);
+  EXPECT_NEAR(regions[0].of.shown->z, 255.0, 0.01);
+  EXPECT_FALSE(regions[1].of.shown.has_value());
+}
+
 // The right half of the plane is painted red, the upper left quarter green; a soft edge between,
 // and paper.
 TEST(ColourRegions, MayBePaintedOverAPictureOfThePlane) {

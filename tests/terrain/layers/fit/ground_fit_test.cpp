@@ -116,6 +116,30 @@ TEST(FitGround, FileEvaluatesToWhatIsPredicted) {
   }
 }
 
+// A class of false colour is shown in a given one, its children lighter and darker as they were.
+TEST(FitGround, ClassesMayBeShownInAnotherColour) {
+  KnownGround ground = known_ground(96);
+  const GroundFit fit = fit_ground(ground, {});
+  const SurfaceLayers before = surface_layers_of(ground, fit, "test");
+  ground.classes[static_cast<std::size_t>(fit.classes.order[0])].shown =
+      glm::vec3(100.F, 110.F, 150.F);
+  const SurfaceLayers after = surface_layers_of(ground, fit, "test");
+  const auto sum = [](std::uint32_t rgb) {
+    return static_cast<int>((rgb >> 16U & 255U) + (rgb >> 8U & 255U) + (rgb & 255U));
+  };
+  for (std::size_t l = 0; l != after.layers.size(); ++l) {
+    const bool first = l == 0 || after.layers[l].parent == 0;
+    if (!first) {
+      EXPECT_EQ(after.layers[l].rgb, before.layers[l].rgb);
+      continue;
+    }
+    const auto blue = static_cast<int>(after.layers[l].rgb & 255U);
+    EXPECT_NEAR(blue - static_cast<int>(after.layers[l].rgb >> 16U), 50, 1);
+    EXPECT_NEAR(sum(after.layers[l].rgb) - sum(after.layers[0].rgb),
+                sum(before.layers[l].rgb) - sum(before.layers[0].rgb), 4);
+  }
+}
+
 // Including children, each class covers its own area of the training ground, in sunlight.
 TEST(FitGround, ClassesCoverWhatTheyDid) {
   const KnownGround ground = known_ground(96);
