@@ -95,9 +95,10 @@ struct Reader : LayersReader {
   // Values as plain numbers; in a file they are bytes between `from` and `to`.
   LayerSamples numbers(const ConfigValue& value, const ConfigTable& table, LayerModel model) const {
     allow_only(table, {"values", "from", "to"}, where);
+    const ConfigArray& array = as_array(value, where);
     std::vector<double> values;
-    for (const ConfigValue& number : as_array(value, where))
-      values.push_back(as_number(number, where));
+    values.reserve(array.size());
+    for (const ConfigValue& number : array) values.push_back(as_number(number, where));
     if (values.size() < 2 || values.size() > 256)
       fail(value.position, fmt::format("{} values", values.size()), "2 … 256 numbers");
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -112,6 +113,7 @@ struct Reader : LayersReader {
       fail(value.position, fmt::format("values from {} to {}", *low, *high),
            fmt::format("{}…{}", least, most));
     std::vector<std::uint8_t> bytes;
+    bytes.reserve(values.size());
     for (const double v : values)
       bytes.push_back(static_cast<std::uint8_t>(
           most > least ? std::floor(255.0 * std::clamp((v - from) / (to - from), 0.0, 1.0) + 0.5)
@@ -262,7 +264,11 @@ std::string coloured(std::uint32_t rgb) { return fmt::format("\"#{:06x}\"", rgb 
 std::string plain_numbers(const LayerSamples& samples) {
   const double step = (samples.at_255 - samples.at_0) / 255.0;
   int digits = 0;
-  for (double smallest = 1.0; smallest > 0.5 * std::abs(step); smallest *= 0.1) ++digits;
+  double smallest = 1.0;
+  while (smallest > 0.5 * std::abs(step)) {
+    smallest *= 0.1;
+    ++digits;
+  }
   std::vector<std::string> numbers;
   for (const std::uint8_t byte : samples.knots) {
     std::string text = fmt::format("{:.{}f}", samples.at_0 + step * byte, digits);

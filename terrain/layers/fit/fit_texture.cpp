@@ -185,19 +185,21 @@ LightShare light_share(const KnownGround& ground, const Grid<float>& light,
 // The factor by which noise of a relative deviation must raise a coverage so that its mean between
 // 0 and 1 stays.
 double kept_mean_factor(double coverage, double deviation) {
-  constexpr int reach = 40;
-  std::array<double, 2 * reach + 1> weights{};
+  constexpr std::size_t steps = 81;  // from -4 to 4 standard deviations
+  std::array<double, steps> values{};
+  std::array<double, steps> weights{};
   double total = 0.0;
-  for (int i = -reach; i <= reach; ++i)
-    total += weights[static_cast<std::size_t>(i + reach)] = exact::exp(-0.005 * i * i);
+  for (std::size_t i = 0; i != steps; ++i) {
+    values[i] = 0.1 * static_cast<double>(i) - 4.0;
+    total += weights[i] = exact::exp(-0.5 * square(values[i]));
+  }
   double low = 0.25;
   double high = 4.0;
-  for (int step = 0; step != 30; ++step) {
+  for (int halving = 0; halving != 30; ++halving) {
     const double factor = 0.5 * (low + high);
     double mean = 0.0;
-    for (int i = -reach; i <= reach; ++i)
-      mean += weights[static_cast<std::size_t>(i + reach)] / total *
-              unit(factor * coverage * (1.0 + deviation * 0.1 * i));
+    for (std::size_t i = 0; i != steps; ++i)
+      mean += weights[i] / total * unit(factor * coverage * (1.0 + deviation * values[i]));
     (mean < coverage ? low : high) = factor;
   }
   return 0.5 * (low + high);
