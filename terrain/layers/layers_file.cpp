@@ -109,7 +109,8 @@ struct Reader : LayersReader {
     const double most = std::max(from, to);
     if (product && (least < 0.0 || most > 1.0))
       fail(value.position, fmt::format("values from {} to {}", from, to), "0…1 in a product");
-    if (!(*low >= least - 1e-9) || !(*high <= most + 1e-9))
+    const double step = (most - least) / 255.0;  // numbers may be rounded
+    if (!(*low >= least - step) || !(*high <= most + step))
       fail(value.position, fmt::format("values from {} to {}", *low, *high),
            fmt::format("{}…{}", least, most));
     std::vector<std::uint8_t> bytes;

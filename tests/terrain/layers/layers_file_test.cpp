@@ -163,6 +163,12 @@ TEST(LayersFile, KnotsArePlainNumbers) {
   const std::string text = surface_layers_text(sum);
   EXPECT_THAT(text, HasSubstr("from = -2, to = 3, values = [-2, 1.5"));
   EXPECT_EQ(surface_layers_text(parse_surface_layers(text, "x.toml")), text);
+  // Numbers that are rounded beyond their bounds read back.
+  SurfaceLayers rounded = sum;
+  std::get<LayerSamples>(rounded.layers[0].functions[0]).at_255 = 7.2176;
+  const SurfaceLayers again = parse_surface_layers(surface_layers_text(rounded), "x.toml");
+  EXPECT_EQ(std::get<LayerSamples>(again.layers[0].functions[0]).knots,
+            std::get<LayerSamples>(sum.layers[0].functions[0]).knots);
   EXPECT_THROW(read("product", "{ values = [0, 1.5] }"), Error);
   EXPECT_THROW(read("product", "{ values = [1] }"), Error);
   EXPECT_THROW(read("product", "{ values = [0, 1], samples = \"AP8=\" }"), Error);
