@@ -101,10 +101,13 @@ struct Reader : LayersReader {
     for (const ConfigValue& number : array) values.push_back(as_number(number, where));
     if (values.size() < 2 || values.size() > 256)
       fail(value.position, fmt::format("{} values", values.size()), "2 … 256 numbers");
+    if (!std::all_of(values.begin(), values.end(), [](double v) { return std::abs(v) < 1e9; }))
+      fail(value.position, "values beyond ±1e9", "smaller numbers");
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     const bool product = model == LayerModel::product;
     const double from = number_or(table, "from", product ? 0.0 : *low);
     const double to = number_or(table, "to", product ? 1.0 : *high);
+    if (!std::isfinite(to - from)) fail(value.position, "bounds that are not finite", "numbers");
     const double least = std::min(from, to);
     const double most = std::max(from, to);
     if (product && (least < 0.0 || most > 1.0))
@@ -299,7 +302,10 @@ std::string function_text(const LayerFunction& function) {
   const std::string range = samples.at_0 == 0.0 && samples.at_255 == 1.0
                                 ? ""
                                 : fmt::format("from = {}, to = {}, ", samples.at_0, samples.at_255);
-  if (!samples.knots.empty() && samples.at_0 != samples.at_255)
+  // Bytes whose numbers would not tell them apart stay bytes.
+  const double step = std::abs(samples.at_255 - samples.at_0) / 255.0;
+  const double largest = std::max(std::abs(samples.at_255), std::abs(samples.at_0));
+  if (!samples.knots.empty() && step > 1e-9 * std::max(largest, 1.0) && largest < 1e9)
     return fmt::format("{{ {}values = {} }}", range, plain_numbers(samples));
   return fmt::format("{{ {}samples = \"{}\" }}", range,
                      samples.knots.empty()

@@ -322,6 +322,10 @@ void check_options(const LayersFitOptions& options) {
            "esa_worldcover, corine, nlcd, fbfm40 or a file (docs/legends.md)");
   if (!options.from.regions.empty() && options.from.image.empty())
     refuse("--regions", "divides the colours of a picture, but none is given", "--image");
+  if (options.from.image.empty() && (!options.from.bands.empty() || options.from.haze ||
+                                     options.from.grey_hue_deg || options.from.snow_from_m))
+    refuse("--bands, --haze, --grey-hue and --snow-from", "are of a picture, but none is given",
+           "--image");
   if (options.functions != "fitted" && options.functions != "histogram")
     refuse("--functions", options.functions, "fitted, histogram");
   if (options.model != "product" && options.model != "additive")
