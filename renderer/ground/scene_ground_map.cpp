@@ -348,7 +348,7 @@ bool has_groves(LandCoverClass id) {
 }
 
 // Whether banks and shores are drawn: not in previews where even the broadest are about a pixel,
-// because all rivers get theirs anew for each view.
+// because all rivers get theirs again for each view.
 bool draws_banks(const Scene& scene) {
   constexpr double broad_px = 1.2;
   return !(scene.terrain.preview_mcells > 0.0 &&

@@ -244,6 +244,10 @@ const answers = {
       class: y > 0.6 ? "forest" : "rock",
     };
   },
+  "GET api/place": (query) => {
+    const [east, north] = [Number(query.get("east")), Number(query.get("north"))];
+    return { sky: false, position: [east, north], lonlat: [11 + (east - 650000) / 75000, 47 + (north - 5200000) / 111000], altitude_m: 900 };
+  },
   "GET api/map": () => {
     const { values } = parse(scene.text);
     const { viewer, target, azimuth, field } = camera(values);
@@ -333,6 +337,9 @@ const answers = {
       text: first_text.replace('"Karwendel"', `"${place}"`),
     });
   },
+  "POST api/style": (_, body) => begin("painting", ["segmenting"], "", { result: JSON.parse(body).painting.replace(/\.\w+$/, "_style.toml") }),
+  "POST api/pick": () => begin("painting", ["looking for summits"], "", { result: "pick/" }),
+  "GET api/painting": () => jobs.painting,
   "GET api/fetch": () => jobs.fetch,
   "POST api/fetch/cancel": () => cancel("fetch"),
   "POST api/files": (query) => {

@@ -1428,6 +1428,39 @@ test("a lift is drawn by clicks, named, given another point and removed", async 
   await finished();
 });
 
+test("a trail is drawn on the map, and shown there and in the picture", { skip: no_mock }, async () => {
+  await panel("names");
+  await page.select(".drawing select", "path");
+  await page.click("#draw");
+  const box = await (await page.$("#map")).boundingBox();
+  const points = () => page.$eval("#signs .line", (line) => line.getAttribute("d").split(/[ML]/).length - 1).catch(() => 0);
+  for (const [x, y, count] of [
+    [0.45, 0.4, 1],
+    [0.55, 0.45, 2],
+    [0.6, 0.5, 3],
+    [0.6, 0.5, 3],
+  ]) {
+    await page.mouse.click(box.x + x * box.width, box.y + y * box.height);
+    for (const until = Date.now() + patience.timeout; (await points()) !== count && Date.now() < until; ) await new Promise((go) => setTimeout(go, 20));
+    assert.equal(await points(), count);
+  }
+  await changed("features.0.source", undefined);
+  const { drawn } = await scene();
+  assert.deepEqual([drawn.features[0].properties.kind, drawn.features[0].geometry.coordinates.length], ["path", 3]);
+  await undo();
+});
+
+test("a painting that is dropped gives its style, and a painting leads to the page that pairs it", { skip: no_mock }, async () => {
+  const file = join(await mkdtemp(join(tmpdir(), "studio-")), "cliffs.jpg");
+  await writeFile(file, "a painting");
+  await (await page.$("#choose-files")).uploadFile(file);
+  await page.waitForFunction(() => document.querySelectorAll("#files-list .buttons button").length === 2, patience);
+  assert.equal(await text_of("#files-list .buttons button:last-child"), "Take its style");
+  await page.click("#files-list .buttons button:last-child");
+  assert.equal(await changed("style.file", undefined), "cliffs_style.toml");
+  await undo();
+});
+
 test("the critique speaks in sentences, marks its place, and mends", async () => {
   const button = await page.waitForSelector("#critique .mend", patience);
   assert.match(await text_of("#critique li.note .advice"), /The land looks flat\./);

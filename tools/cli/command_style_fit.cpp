@@ -17,6 +17,7 @@
 #include "renderer/style/fit_style.h"
 #include "renderer/style/style_file.h"
 #include "tools/cli/commands.h"
+#include "tools/cli/studio/painting_work.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 #include "tools/report/style_pictures.h"
@@ -35,9 +36,9 @@ Grid<std::uint8_t> read_classes(const StyleFitOptions& options) {
 }
 
 // The classes that `exemplar segment` infers.
-Grid<std::uint8_t> inferred_classes(const StyleFitOptions& options, const Grid<glm::vec3>& picture,
+Grid<std::uint8_t> inferred_classes(const std::string& painting, const Grid<glm::vec3>& picture,
                                     const Grid<float>& alpha) {
-  const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, options.painting);
+  const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, painting);
   const std::size_t groups = std::min(segments.tree.pieces, inferred_groups);
   return complete_sky(
       class_mask(segments, cut_tree(segments.tree, groups), inferred_class_of(segments, groups)));
@@ -63,35 +64,52 @@ Json as_json(const StyleFitOptions& options, const Style& style, std::size_t byt
       .add("units_per_px", Json::number(style.units_per_px));
 }
 
-int run(const StyleFitOptions& options) {
-  if (lower_extension(options.out) != ".toml")
-    throw Error(ErrorKind::usage, "--out", options.out, "a .toml file");
-  const ThreadLimit threads(options.threads);
-  TerminalProgress progress(options.quiet);
+// A painting, its classes and the style that is fitted to them.
+struct FittedStyle {
+  Grid<glm::vec3> picture;
+  Grid<std::uint8_t> mask;
+  Palette reference;
+  Style style;
+};
+
+FittedStyle fit(const StyleFitOptions& options, Progress& progress) {
   progress.begin("reading", 0.0);
   Grid<float> alpha;
-  const Grid<glm::vec3> picture = read_painting(options.painting, progress, &alpha);
+  FittedStyle out;
+  out.picture = read_painting(options.painting, progress, &alpha);
   if (options.classes.empty()) progress.begin("segmenting", 0.0);
-  Grid<std::uint8_t> mask =
-      options.classes.empty() ? inferred_classes(options, picture, alpha) : read_classes(options);
-  for (std::size_t i = 0; i < alpha.size() && alpha.same_size(mask); ++i)
-    if (alpha[i] < 1.0F) mask[i] = unused_label;
+  out.mask = options.classes.empty() ? inferred_classes(options.painting, out.picture, alpha)
+                                     : read_classes(options);
+  for (std::size_t i = 0; i < alpha.size() && alpha.same_size(out.mask); ++i)
+    if (alpha[i] < 1.0F) out.mask[i] = unused_label;
   StyleFitParameters parameters;
   parameters.name =
       options.name.empty() ? std::filesystem::path(options.out).stem().string() : options.name;
   parameters.origin = options.origin;
   parameters.licence = options.licence;
-  const Palette reference = read_palette("summer");
-  Style style = fit_style(picture, mask, reference, parameters, progress);
+  out.reference = read_palette("summer");
+  out.style = fit_style(out.picture, out.mask, out.reference, parameters, progress);
   if (options.classes.empty())
-    style.notes.insert(style.notes.begin(),
-                       "no mask was given: classes are inferred from position, colour and strokes");
+    out.style.notes.insert(
+        out.style.notes.begin(),
+        "no mask was given: classes are inferred from position, colour and strokes");
+  return out;
+}
+
+int run(const StyleFitOptions& options) {
+  if (lower_extension(options.out) != ".toml")
+    throw Error(ErrorKind::usage, "--out", options.out, "a .toml file");
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  const FittedStyle fitted = fit(options, progress);
+  const Style& style = fitted.style;
   const std::string text = style_text(style);
   write_text_file(options.out, text);
   if (!options.report.empty()) {
     progress.begin("writing the report", 0.0);
     write_style_page(
-        options.report, file_name(options.painting), picture, mask, style, reference,
+        options.report, file_name(options.painting), fitted.picture, fitted.mask, style,
+        fitted.reference,
         fmt::format("belvedere style fit {}{} --out {}", file_name(options.painting),
                     options.classes.empty() ? "" : " --classes " + file_name(options.classes),
                     file_name(options.out)));
@@ -102,6 +120,13 @@ int run(const StyleFitOptions& options) {
 }
 
 }  // namespace
+
+void write_fitted_style(const std::string& painting, const std::string& out, Progress& progress) {
+  StyleFitOptions options;
+  options.painting = painting;
+  options.out = out;
+  write_text_file(out, style_text(fit(options, progress).style));
+}
 
 Action add_style_fit(CommandOptions& command) {
   const auto options = std::make_shared<StyleFitOptions>();

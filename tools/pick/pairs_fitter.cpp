@@ -368,7 +368,8 @@ Json setup_json(const PickingSetup& setup) {
       .add("min_pairs", Json::number(static_cast<double>(min_control_pairs)))
       .add("places", std::move(places))
       .add("names", std::move(names))
-      .add("next", Json::text(setup.next));
+      .add("next", Json::text(setup.next))
+      .add("room", Json::boolean(setup.room));
 }
 
 Json pairs_json(const PairsSession& session) {

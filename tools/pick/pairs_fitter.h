@@ -157,6 +157,7 @@ struct PickingSetup {
   std::string crs;             // in words
   std::vector<KnownPlace> places;
   std::string next;
+  bool room = false;  // of the studio, to which the page leads back
 };
 Json setup_json(const PickingSetup& setup);
 

@@ -175,6 +175,7 @@ PickingSetup make_setup(const PickingInput& given, const Dem& dem, Progress& pro
   PickingSetup out;
   out.painting = given.painting_name;
   out.next = given.next;
+  out.room = given.port < 0;
   out.crs = describe_crs(dem.crs);
   out.map_origin = {dem.transform.origin_x, dem.transform.origin_y};
   out.places = known_places(dem, given.named);
@@ -383,7 +384,7 @@ HttpAnswer PickingState::route(const HttpRequest& request) {
 Picking::Picking(PickingInput input, Progress& progress) {
   const int port = input.port;
   state_ = std::make_unique<PickingState>(std::move(input), progress);
-  state_->server.emplace(HttpParameters{.port = port, .token = random_token()},
+  if (port >= 0) state_->server.emplace(HttpParameters{.port = port, .token = random_token()},
                          [this](const HttpRequest& request) { return answer(request); });
 }
 
@@ -395,7 +396,7 @@ void Picking::run() { state_->server->run(); }
 
 void Picking::stop() {
   state_->fitter.end();
-  state_->server->stop();
+  if (state_->server) state_->server->stop();
 }
 
 bool Picking::is_left(double wait_s) const { return state_->visits.is_left(wait_s); }

@@ -24,7 +24,7 @@ struct PickingInput {
   std::vector<NamedPlace> named;
   RegistrationParameters registration;
   std::string next;  // the command to go on with, for the page
-  int port = 0;      // 0: any that is free
+  int port = 0;      // 0: any that is free; negative: no server, a room of another page
 };
 
 struct PickingState;

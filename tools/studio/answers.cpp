@@ -15,6 +15,7 @@
 #include "renderer/labels/label_files.h"
 #include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/scene_check.h"
+#include "renderer/register/pair_proposals.h"
 #include "renderer/scene/edit/scene_edit.h"
 #include "renderer/scene/edit/toml_layout.h"
 #include "renderer/scene/scene_schema.h"
@@ -142,6 +143,15 @@ Json rungs_json(const LoadedScene& scene, const std::vector<Rung>& rungs) {
   return out;
 }
 
+namespace {
+
+void add_lonlat(Json& to, const std::string& crs, glm::dvec2 position) {
+  if (!crs.empty())
+    to.add("lonlat", numbers(transform_point(crs, normalize_crs("EPSG:4326"), position)));
+}
+
+}  // namespace
+
 Json pointer_json(const LivePicture& picture, glm::dvec2 share) {
   const GuidanceBuffers& seen = picture.seen;
   const auto pixel = [](double part, int size) {
@@ -158,8 +168,16 @@ Json pointer_json(const LivePicture& picture, glm::dvec2 share) {
                  .add("altitude_m", Json::number(std::round(seen.altitude_m[i])))
                  .add("distance_m", Json::number(std::round(seen.depth_m[i])))
                  .add("class", Json::text(class_name(seen.land_cover[i])));
-  if (!picture.crs.empty())
-    out.add("lonlat", numbers(transform_point(picture.crs, normalize_crs("EPSG:4326"), position)));
+  add_lonlat(out, picture.crs, position);
+  return out;
+}
+
+Json place_json(const Dem& dem, glm::dvec2 position) {
+  const std::optional<double> altitude_m = measured_altitude_m(dem, position);
+  Json out = Json::object().add("sky", Json::boolean(!altitude_m));
+  if (!altitude_m) return out;
+  out.add("position", numbers(position)).add("altitude_m", Json::number(std::round(*altitude_m)));
+  add_lonlat(out, dem.crs, position);
   return out;
 }
 

@@ -30,6 +30,9 @@ Json sheet_json(const LivePicture& picture);
 // The ground seen, on a grid of at most 360 columns, for what the page draws under the hand.
 std::string seen_bytes(const LivePicture& picture);
 // The ground under a pixel, by its shares of the picture.
+// The place of the map at a position of a DEM, m in its CRS, as api/pointer tells it; `sky` outside
+// of the data.
+Json place_json(const Dem& dem, glm::dvec2 position);
 Json pointer_json(const LivePicture& picture, glm::dvec2 share);
 
 // The map beside the picture: its frame and size, and what is drawn on it.

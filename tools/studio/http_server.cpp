@@ -350,7 +350,7 @@ HttpAnswer page_file(std::initializer_list<const char*> folders, const std::stri
 }
 
 void PageVisits::asked(const HttpRequest& request) {
-  closed_ms_ = request.path == "api/close" ? now_ms() : 0;
+  closed_ms_ = request.path.ends_with("api/close") ? now_ms() : 0;
 }
 
 bool PageVisits::is_left(double wait_s) const {

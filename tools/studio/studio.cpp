@@ -16,8 +16,11 @@ StudioState::StudioState(const StudioParameters& parameters, const Run& given)
       owner(parameters.scene, "studio"),
       run(given),
       open_place(parameters.open_place),
+      open_picking(parameters.open_picking),
+      fit_style(parameters.fit_style),
       render(std::make_unique<Job>("render")),
-      fetch(std::make_unique<Job>("fetch")) {
+      fetch(std::make_unique<Job>("fetch")),
+      painting(std::make_unique<Job>("work on a painting")) {
   if (!session.drawn().empty() && !is_json(session.drawn()))
     throw Error(ErrorKind::input, session.drawn_file(), "is no GeoJSON",
                 "the lines drawn in the studio, or no file of that name");
@@ -44,11 +47,24 @@ HttpAnswer StudioState::change_scene(const std::function<void()>& change) {
   return json_answer(scene_json(session, derived, notes));
 }
 
+HttpAnswer StudioState::in_picking(const HttpRequest& request) {
+  Room room;
+  {
+    const std::lock_guard guard(mutex);
+    room = picking;
+  }
+  if (!room) return not_found("room; open it at a painting");
+  HttpRequest inside = request;
+  inside.path = request.path.substr(5);
+  return room(inside);
+}
+
 HttpAnswer StudioState::route(const HttpRequest& request) {
   const std::string& path = request.path;
   const bool post = request.method == "POST";
   if (!path.starts_with("api/")) {
     if (path.starts_with("render/")) return rendered(path.substr(7));
+    if (path.starts_with("pick/")) return in_picking(request);
     return page_file({"studio"}, path);
   }
   const std::string name = path.substr(4);
@@ -84,6 +100,11 @@ HttpAnswer StudioState::route(const HttpRequest& request) {
       render->cancel();
       return json_answer(render_json());
     }
+    if (name == "style" || name == "pick") return start_painting_work(request, name);
+    if (name == "painting/cancel") {
+      painting->cancel();
+      return json_answer(Json::object());
+    }
     if (name == "fetch") return start_fetch(request);
     if (name == "fetch/cancel") {
       fetch->cancel();
@@ -100,6 +121,11 @@ HttpAnswer StudioState::route(const HttpRequest& request) {
     if (name == "picture") return picture(request);
     if (name == "tiles") return tiles(request);
     if (name == "pointer") return pointer(request);
+    if (name == "place") return place(request);
+    if (name == "painting") {
+      const Job::Report report = painting->report();
+      return json_answer(job_json(report).add("result", Json::text(report.result)));
+    }
     if (name == "names") return json_answer(sheet_json(*last_picture(request)));
     if (name == "seen")
       return {.type = "application/octet-stream", .body = seen_bytes(*last_picture(request))};
@@ -154,6 +180,7 @@ void Studio::stop() {
   state_->small.cancel();
   state_->render->cancel();
   state_->fetch->cancel();
+  state_->painting->cancel();
   state_->server->stop();
 }
 

@@ -215,6 +215,18 @@ HttpAnswer StudioState::pointer(const HttpRequest& request) {
       pointer_json(*seen, {share_of(request.value("x"), "x"), share_of(request.value("y"), "y")}));
 }
 
+// Of the ground at a place of the map.
+HttpAnswer StudioState::place(const HttpRequest& request) {
+  const auto number = [&](const char* name) {
+    const std::optional<double> value = parse_number<double>(request.value(name));
+    if (!value || !std::isfinite(*value))
+      throw Error(ErrorKind::usage, name, fmt::format("\"{}\"", request.value(name)), "metres");
+    return *value;
+  };
+  const glm::dvec2 at(number("east"), number("north"));
+  return json_answer(place_json(*quick.ground(moment({}).scene, run).dem, at));
+}
+
 // They are found once for a ground.
 std::vector<Proposal> StudioState::proposals(const LoadedScene& scene) {
   const LiveView::Ground ground = quick.ground(scene, run);
@@ -424,6 +436,42 @@ HttpAnswer StudioState::start_fetch(const HttpRequest& request) {
     }
   });
   return json_answer(fetch_json(), 202);
+}
+
+// `name`: "style" fits that of a painting, "pick" opens the room for its pairs. The painting is one
+// that the scene names, or a file beside it.
+HttpAnswer StudioState::start_painting_work(const HttpRequest& request, const std::string& name) {
+  const LoadedScene scene = moment({}).scene;
+  const std::string file = read_text_member(request.body, "painting");
+  const std::string path = file.empty() ? file : find_scene_file(scene, file);
+  if (path.empty()) throw missing_scene_file(scene, file);
+  const std::string stem = fs::path(file).stem().string();
+  const std::string result = stem + (name == "style" ? "_style.toml" : "_pairs.csv");
+  const std::string target = (fs::path(scene.folder) / result).string();
+  if (name == "style") {
+    if (!fit_style) throw Error(ErrorKind::usage, "style", "this studio fits none", "style fit");
+    if (fs::exists(fs::symlink_status(target)))
+      throw Error(ErrorKind::output, result, "a file of that name is there already",
+                  "that style, or another name of the painting; no file is replaced");
+    painting->start(target, run, [=, this](const Run& given) {
+      fit_style(path, target, given);
+      return result;
+    });
+  } else {
+    if (!open_picking)
+      throw Error(ErrorKind::usage, "pick", "this studio picks no pairs", "exemplar pick");
+    {
+      const std::lock_guard guard(mutex);
+      picking = {};  // only one page may have a table of pairs open
+    }
+    painting->start(target, run, [=, this](const Run& given) {
+      Room room = open_picking(scene, path, target, given);
+      const std::lock_guard guard(mutex);
+      picking = std::move(room);
+      return std::string("pick/");
+    });
+  }
+  return json_answer(job_json(painting->report()), 202);
 }
 
 Json StudioState::fetch_json() const {

@@ -30,11 +30,22 @@ struct WantedPlace {
 // Fetches the maps of a place, and returns the text of a scene of them, as `new` proposes it.
 using OpenPlace = std::function<std::string(const WantedPlace& place, const Run& run)>;
 
+// Answers requests below an address of the page.
+using Room = std::function<HttpAnswer(const HttpRequest& request)>;
+// Opens the page that picks pairs of a painting and the ground of a scene.
+using OpenPicking = std::function<Room(const LoadedScene& scene, const std::string& painting,
+                                       const std::string& pairs, const Run& run)>;
+// Fits the style of a painting and writes its file.
+using FitStyle = std::function<void(const std::string& painting, const std::string& style,
+                                    const Run& run)>;
+
 struct StudioParameters {
   std::string scene;  // path
   SceneFileOptions files;
   int port = 0;               // 0: any that is free
-  OpenPlace open_place = {};  // nothing: places are refused
+  OpenPlace open_place = {};  // nothing: places are refused; so with the next two
+  OpenPicking open_picking = {};
+  FitStyle fit_style = {};
 };
 
 class Job;
@@ -73,6 +84,8 @@ struct StudioState {
   Json render_json() const;
   HttpAnswer start_fetch(const HttpRequest& request);
   Json fetch_json() const;
+  HttpAnswer start_painting_work(const HttpRequest& request, const std::string& name);
+  HttpAnswer place(const HttpRequest& request);
   HttpAnswer take_file(const HttpRequest& request);
   std::vector<Proposal> proposals(const LoadedScene& scene);
   HttpAnswer proposal_picture(const std::string& name);
@@ -80,6 +93,7 @@ struct StudioState {
   HttpAnswer loupe(const HttpRequest& request);
   // The scene with other edits, small and quick.
   HttpAnswer small_picture(std::span<const SceneEdit> edits, int width_px);
+  HttpAnswer in_picking(const HttpRequest& request);
   HttpAnswer route(const HttpRequest& request);
 
   std::mutex mutex;  // of the members below, up to `run`
@@ -99,8 +113,12 @@ struct StudioState {
   PictureQueue exact;  // the last
   PictureQueue small;  // thumbnails of other scenes, which leave what the others keep
   const OpenPlace open_place;
+  const OpenPicking open_picking;
+  const FitStyle fit_style;
+  Room picking;  // once it is open; under `mutex`
   std::unique_ptr<Job> render;
   std::unique_ptr<Job> fetch;
+  std::unique_ptr<Job> painting;  // a style that is fitted, or the room for pairs that is opened
   PageVisits visits;
   std::optional<HttpServer> server;
 };

@@ -464,7 +464,63 @@ TEST_F(StudioTest, FilesNeverLeaveTheFolder) {
   EXPECT_FALSE(fs::exists(folder_ / "elsewhere.gpx"));
 }
 
+TEST_F(StudioTest, PlacesOfTheMapHaveGround) {
+  const json here = got("api/place", {{"east", "4500"}, {"north", "4500"}});
+  EXPECT_FALSE(here["sky"].get<bool>()) << here.dump();
+  EXPECT_EQ(here["position"], json::parse("[4500, 4500]"));
+  EXPECT_TRUE(here["altitude_m"].is_number());
+  EXPECT_TRUE(got("api/place", {{"east", "-1e6"}, {"north", "0"}})["sky"].get<bool>());
+  EXPECT_EQ(get("api/place", {{"east", "x"}, {"north", "0"}}).status, 422);
+}
+
 namespace fs = std::filesystem;
+
+// What is done with paintings is given by the command.
+class StudioOfPaintings : public StudioTest {
+ protected:
+  StudioOfPaintings() {
+    folder_.write("cliffs.jpg", "paint");
+    StudioParameters parameters{path_, {}, 0};
+    parameters.fit_style = [](const std::string& painting, const std::string& style,
+                              const belvedere::Run&) {
+      test::write_bytes(style, "of " + fs::path(painting).filename().string());
+    };
+    parameters.open_picking = [](const LoadedScene&, const std::string&, const std::string& pairs,
+                                 const belvedere::Run&) -> Room {
+      return [pairs](const HttpRequest& request) {
+        return HttpAnswer{.type = "text/plain",
+                          .body = request.path + " of " + fs::path(pairs).filename().string()};
+      };
+    };
+    studio_ = std::make_unique<Studio>(parameters, run_);
+  }
+  json finished() {
+    for (int i = 0; i < 2000; ++i) {
+      const json report = got("api/painting");
+      if (report["state"] != "running") return report;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ADD_FAILURE() << "the job does not end";
+    return {};
+  }
+};
+
+TEST_F(StudioOfPaintings, AStyleIsWrittenBesideTheSceneAndReplacesNothing) {
+  posted("api/style", R"({"painting": "cliffs.jpg"})", 202);
+  EXPECT_EQ(finished()["result"], "cliffs_style.toml");
+  EXPECT_EQ(test::read_bytes(folder_ / "cliffs_style.toml"), "of cliffs.jpg");
+  posted("api/style", R"({"painting": "cliffs.jpg"})", 422);
+  posted("api/style", R"({"painting": "gone.jpg"})", 422);
+  posted("api/style", R"({"painting": "../hills.jpg"})", 422);
+}
+
+TEST_F(StudioOfPaintings, TheRoomForPairsIsOpenedBelowThePage) {
+  EXPECT_EQ(get("pick/api/pairs").status, 404);
+  posted("api/pick", R"({"painting": "cliffs.jpg"})", 202);
+  EXPECT_EQ(finished()["result"], "pick/");
+  EXPECT_EQ(get("pick/api/pairs").body, "api/pairs of cliffs_pairs.csv");
+  EXPECT_EQ(get("pick/").body, " of cliffs_pairs.csv");
+}
 
 // What fetching does is given by the command.
 class StudioOfPlaces : public StudioTest {

@@ -29,10 +29,12 @@
 #include "renderer/register/registered_ground.h"
 #include "renderer/register/registered_guidance.h"
 #include "renderer/scene/scene_file.h"
+#include "renderer/world/scene_dem.h"
 #include "terrain/io/crs.h"
 #include "terrain/register/control_pairs.h"
 #include "terrain/register/registration.h"
 #include "tools/cli/commands.h"
+#include "tools/cli/studio/painting_work.h"
 #include "tools/cli/studio/serve_page.h"
 #include "tools/cli/terminal.h"
 #include "tools/pick/picking.h"
@@ -166,6 +168,29 @@ std::string next_command(const PickOptions& options) {
   return fmt::format("belvedere exemplar register {}{} --pairs {} --out registered",
                      shell_word(options.painting), dems, shell_word(options.pairs));
 }
+
+}  // namespace
+
+PickingInput picking_input(const LoadedScene& scene, const std::string& painting,
+                           const std::string& pairs, const Run& run) {
+  PickingInput input;
+  input.pairs = pairs;
+  input.painting_name = file_name(painting);
+  input.painting = read_painting(painting, run.progress);
+  input.dem = open_scene_dem(scene, run.progress, run.cache).dem;
+  if (input.dem.crs.empty())
+    throw Error(ErrorKind::usage, "terrain", "has no CRS", "a terrain whose place is known");
+  PickOptions options;
+  options.painting = painting;
+  options.pairs = pairs;
+  for (const SceneInput& each : scene_inputs(scene))
+    if (each.key.starts_with("terrain.") && !each.path.empty()) options.dems.push_back(each.path);
+  input.next = next_command(options);
+  input.port = -1;
+  return input;
+}
+
+namespace {
 
 int run_pick(const PickOptions& options) {
   file_guard().writes(options.pairs, "--pairs");

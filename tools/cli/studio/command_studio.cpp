@@ -9,9 +9,11 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/new/new_options.h"
 #include "tools/cli/scene_options.h"
+#include "tools/cli/studio/painting_work.h"
 #include "tools/cli/studio/serve_page.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
+#include "tools/pick/picking.h"
 #include "tools/studio/studio.h"
 
 namespace belvedere::tools {
@@ -69,7 +71,17 @@ int run_studio(const StudioOptions& options) {
   const OpenPlace open = [&](const WantedPlace& place, const Run& given) {
     return scene_of_place(options, scene, place, given);
   };
-  Studio studio({scene, options.files, options.page.port, open}, run);
+  const OpenPicking pick = [](const LoadedScene& of, const std::string& painting,
+                              const std::string& pairs, const Run& given) -> Room {
+    const auto picking =
+        std::make_shared<Picking>(picking_input(of, painting, pairs, given), given.progress);
+    return [picking](const HttpRequest& request) { return picking->answer(request); };
+  };
+  const FitStyle fit = [](const std::string& painting, const std::string& style,
+                          const Run& given) {
+    write_fitted_style(painting, style, given.progress);
+  };
+  Studio studio({scene, options.files, options.page.port, open, pick, fit}, run);
   serve_page(served_page(studio), options.page.headless);
   return 0;
 }

@@ -38,6 +38,7 @@ async function start() {
   const picking = new Picking(pairs);
   const views = new Views(pairs, picking);
   new List(pairs, (index) => views.bring(index));
+  by_id("back").hidden = !setup.room;
   by_id("name").textContent = setup.painting.name;
   document.title = `${setup.painting.name} – pairs – Belvedere`;
   by_id("next").textContent = setup.next;

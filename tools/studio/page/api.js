@@ -54,7 +54,9 @@ export const api = {
   act: (name, body) => post(`api/${name}`, body), // undo, redo, save, reload
   render: (width) => post("api/render", { width }),
   fetch: (place, size, cover) => post("api/fetch", { place, size, land_cover: cover ? "yes" : "no" }),
-  job: (name) => get(`api/${name}`), // render, fetch
+  place: (east, north) => get(`api/place?east=${east.toFixed(2)}&north=${north.toFixed(2)}`),
+  painting: (name, painting) => post(`api/${name}`, { painting }), // style, pick
+  job: (name) => get(`api/${name}`), // render, fetch, painting
   job_cancel: (name) => post(`api/${name}/cancel`),
   pointer: (x, y, revision, signal) => get(`api/pointer?x=${x.toFixed(5)}&y=${y.toFixed(5)}&revision=${revision}`, signal),
   map_picture: (revision) => `api/map.png?of=${revision}`, // of the newest scene, whatever its revision

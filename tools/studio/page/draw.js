@@ -38,6 +38,8 @@ export class Drawing {
       update: () => this.update(),
     };
     for (const kind of ["state", "seen"]) store.on(kind, () => this.draw());
+    // Lines on the map: what is drawn, and the one in hand.
+    store.lines = () => [...this.features().map(points_of), this.points ?? []].filter((each) => each.length > 0).map((each) => each.map((point) => point.position));
   }
   features() {
     return this.store.state.drawn?.features ?? [];
@@ -55,10 +57,10 @@ export class Drawing {
     this.finish.hidden = this.points.length < least;
     this.begin.hidden = !this.finish.hidden;
     const hint = `${label}: click point ${this.points.length + 1}${this.points.length < least ? "" : ", or the last one again to end"}.`;
-    this.hands.choose(hint, (pointed, _, share) => this.take(pointed, share), () => this.leave());
+    this.hands.choose(hint, (pointed, _, share, near_m) => this.take(pointed, share, near_m), () => this.leave());
     this.draw();
   }
-  take(pointed, share) {
+  take(pointed, share, near_m) {
     if (!this.points) return;
     if (!pointed.lonlat) {
       this.leave();
@@ -66,9 +68,11 @@ export class Drawing {
     }
     const last = this.points.at(-1);
     const box = by_id("frame").getBoundingClientRect();
-    const again = last && Math.hypot((share[0] - last.share[0]) * box.width, (share[1] - last.share[1]) * box.height) < end_px;
+    const apart = (a, b, x, y) => Math.hypot((a[0] - b[0]) * x, (a[1] - b[1]) * y);
+    const again =
+      last && (share ? last.share && apart(share, last.share, box.width, box.height) < end_px : apart(pointed.position, last.position, 1, 1) < near_m);
     if (again) return this.end();
-    this.points.push({ ...pointed, share });
+    this.points.push({ ...pointed, share: share ?? this.share_of(pointed.position) });
     this.next();
   }
   end() {
@@ -160,6 +164,7 @@ export class Drawing {
 
   // The line in hand, or the points of the chosen feature where they are seen; those between points make new ones.
   draw() {
+    this.store.tell("lines");
     const box = by_id("frame").getBoundingClientRect(); // the layer has no size while it is hidden
     const chosen = this.features()[this.chosen];
     const shares = this.points ? this.points.map((each) => each.share) : chosen ? points_of(chosen).map((each) => this.share_of(each.position)) : [];
@@ -169,7 +174,7 @@ export class Drawing {
     const at = shares.map((share) => share && [share[0] * box.width, share[1] * box.height]);
     const line = at.filter(Boolean).map((each) => each.map((px) => px.toFixed(1)).join());
     this.layer.replaceChildren(drawing("path", { d: line.length > 0 ? `M${line.join("L")}` : "" }));
-    if (this.points) return this.layer.append(...at.map(([cx, cy]) => drawing("circle", { class: "point", cx, cy, r: 4 })));
+    if (this.points) return this.layer.append(...at.filter(Boolean).map(([cx, cy]) => drawing("circle", { class: "point", cx, cy, r: 4 })));
     at.forEach((each, index) => {
       const before = at[index - 1];
       if (each && before) this.grip([(each[0] + before[0]) / 2, (each[1] + before[1]) / 2], index, true);

@@ -1,6 +1,7 @@
 // Files dropped on the page, or chosen: written beside the scene, then what to do with them by their kind.
 import { api } from "./api.js";
 import { by_id, element } from "./dom.js";
+import { work_on } from "./painting.js";
 import { new_step } from "./store.js";
 
 const max_bytes = 2 ** 30;
@@ -20,7 +21,10 @@ const uses = {
     { label: "Take its names", changes: (file) => [{ key: "labels.points", append: { file } }] },
   ],
   names: [{ label: "Take its names", changes: (file) => [{ key: "labels.points", append: { file } }] }],
-  painting: [{ label: "Copy its paint", changes: (file) => [{ key: "exemplar", append: { picture: file } }] }],
+  painting: [
+    { label: "Copy its paint", changes: (file) => [{ key: "exemplar", append: { picture: file } }] },
+    { label: "Take its style", work: "style", changes: (file) => [{ key: "style.file", value: file }] },
+  ],
 };
 const kinds = {
   terrain: "a terrain",
@@ -88,20 +92,28 @@ export class Files {
       found.kind === "scene"
         ? ` is a scene: open it with belvedere studio ${found.file}`
         : ` is ${kinds[found.kind] ?? "a file"} and lies beside the scene as ${found.file}.`;
-    const buttons = (uses[found.kind] ?? []).map(({ label, changes }) =>
+    const says = element("span", {}, told);
+    const buttons = (uses[found.kind] ?? []).map(({ label, work, changes }) =>
       element(
         "button",
         {
           type: "button",
-          click: (event) => {
-            this.store.edit(changes(found.file, this.store), new_step());
-            for (const each of event.currentTarget.parentElement.querySelectorAll("button")) each.disabled = true;
-            this.dialog.close();
+          click: async (event) => {
+            const all = event.currentTarget.parentElement.querySelectorAll("button");
+            for (const each of all) each.disabled = true;
+            try {
+              const file = work ? await work_on(work, found.file, (words) => (says.textContent = ` ${words}`)) : found.file;
+              this.store.edit(changes(file, this.store), new_step());
+              this.dialog.close();
+            } catch (error) {
+              says.replaceChildren(element("span", { class: "fault" }, ` ${error.message}`));
+              for (const each of all) each.disabled = false;
+            }
           },
         },
         label,
       ),
     );
-    return [name, element("span", {}, told), element("div", { class: "buttons" }, ...buttons)];
+    return [name, says, element("div", { class: "buttons" }, ...buttons)];
   }
 }

@@ -19,10 +19,10 @@ export class Hands {
     this.listen();
   }
 
-  // The next click on the picture is no movement: done(pointed, step, share) gets its ground and may return what follows the hand,
+  // The next click on the picture or the map is no movement: done(pointed, step, share, near_m) gets its ground and may return what follows the hand,
   // pull(dx, dy). left() is called where it is given up.
   choose(hint, done, left = () => {}) {
-    this.pick = { done, left };
+    this.pick = { hint, done, left };
     by_id("hint").textContent = `${hint} Enter takes the middle, Esc leaves it.`;
     by_id("hint").hidden = false;
     this.canvas.classList.add("picking");
@@ -57,15 +57,26 @@ export class Hands {
       : null;
   }
   async picked(event) {
-    const { done } = this.pick;
+    const { hint, done, left } = this.pick;
     const held = this.held;
     held.pull = () => {};
     this.leave();
     const pointed = await this.ground(event);
-    if (!pointed) return this.say("The picture was being drawn: click again.");
-    if (pointed.sky) return this.say("There is no ground at this place: click on ground.");
+    if (!pointed || pointed.sky) {
+      this.choose(hint, done, left);
+      return this.say(pointed ? "There is no ground at this place: click on ground." : "The picture was being drawn: click again.");
+    }
     held.pull = done(pointed, held.step, this.picture.share_of(event)) ?? (() => {});
     if (held.last) held.pull(...held.last);
+  }
+  // The same on the map; clicks within near_m mean one place.
+  async placed(position, near_m) {
+    const { hint, done, left } = this.pick;
+    this.leave();
+    const pointed = await api.place(...position).catch(() => null);
+    if (pointed && !pointed.sky) return done(pointed, new_step(), null, near_m);
+    this.choose(hint, done, left);
+    this.say("The map has no data at this place.");
   }
   moving(event) {
     const pointer = this.pointers.get(event.pointerId);

@@ -2,6 +2,7 @@
 // that have a key `enabled` can be switched off.
 import { row } from "./controls.js";
 import { element } from "./dom.js";
+import { work_on } from "./painting.js";
 import { lists } from "./panels_table.js";
 import { new_step } from "./store.js";
 
@@ -67,13 +68,34 @@ export class Blocks {
       "×",
     );
     const enabled = this.enabled(index);
-    const details = element("details", {}, element("summary", {}, name, enabled?.element, remove), ...rows.map((each) => each.element));
+    const details = element(
+      "details",
+      {},
+      element("summary", {}, name, enabled?.element, remove),
+      ...rows.map((each) => each.element),
+      this.about.room ? this.door(at, this.about.room) : null,
+    );
     details.addEventListener("toggle", () => {
       if (details.open) this.open.add(index);
       else this.open.delete(index);
       if (details.open) for (const each of rows) each.update();
     });
     return { element: details, rows, name, enabled };
+  }
+
+  // Leads to another page of the program, about the file of a block; what was changed here stays.
+  door(at, { label, of, work }) {
+    const button = element("button", { type: "button", class: "wide", hidden: !this.store.value(`${at}.${of}`) }, label);
+    button.addEventListener("click", async () => {
+      button.disabled = true;
+      try {
+        location.assign(await work_on(work, this.store.value(`${at}.${of}`), (words) => (button.textContent = words)));
+      } catch (error) {
+        this.store.fail(error);
+      }
+      [button.disabled, button.textContent] = [false, label];
+    });
+    return button;
   }
 
   enabled(index) {

@@ -54,7 +54,7 @@ async function start() {
   new Steps(store, status, picture, ladder);
   const before = new Before(store, status, picture, ladder);
   const versions = new Versions(store, status, picture);
-  const map = new Map_view(store);
+  const map = new Map_view(store, hands);
   const names = new Names(store);
   const drawing = new Drawing(store, hands, seen);
   const check = new Check(store);

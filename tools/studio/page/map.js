@@ -19,11 +19,12 @@ const distances = {
   ground: ["deform.foreground_to_m", "deform.background_from_m"],
   air: ["air.from_m"],
 };
+const near_px = 6; // clicks so near mean one place
 // The relief changes only with these.
 const ground = /^(terrain|generalize|land_cover|deform\.handles|deform\.summits)\b/;
 
 export class Map_view {
-  constructor(store) {
+  constructor(store, hands) {
     this.store = store;
     this.box = by_id("map");
     this.relief = by_id("relief");
@@ -44,8 +45,9 @@ export class Map_view {
       const names = new Set([...Object.keys(before.values), ...Object.keys(state.values)].filter((key) => ground.test(key)));
       if ([...names].some((key) => JSON.stringify(before.values[key]) !== JSON.stringify(state.values[key]))) this.relief_of = null;
     });
-    for (const kind of ["pending", "state", "panel"]) store.on(kind, () => this.draw());
+    for (const kind of ["pending", "state", "panel", "lines"]) store.on(kind, () => this.draw());
     new ResizeObserver(() => this.draw()).observe(this.box);
+    this.box.addEventListener("click", (event) => hands.pick && this.store.map && hands.placed(this.to_ground(event), near_px / this.scale));
   }
 
   // When the hand rests: what the program has found, and the relief if it has changed.
@@ -118,6 +120,8 @@ export class Map_view {
       if (far > 0 && !from.parallel)
         this.layer.circles.append(drawing("path", { class: "distance", d: arc(at, from.azimuth, Math.min(from.field, 359), far) }));
     }
+    for (const line of this.store.lines?.() ?? [])
+      this.layer.circles.append(drawing("path", { class: "line", d: `M${line.map((each) => this.to_page(each).join()).join("L")}` }));
     for (const { key, name, sign } of blocks)
       for (let index = 0; index < this.store.count(key); ++index) {
         const outline = this.store.value(`${key}.${index}.points`);

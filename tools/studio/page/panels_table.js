@@ -317,6 +317,7 @@ export const lists = {
   },
   exemplar: {
     one: "Painting", none: "Nothing is copied. Drop a painting on the page to copy from it.", title: "picture",
+    room: { label: "Pair its places with the map…", of: "picture", work: "pick" },
     rows: [
       { key: "light", label: "Serves light" },
       { key: "found_shadow", label: "Dark pixels" },

@@ -72,13 +72,17 @@ TEST_F(LayersFitCommand, LearnsALandCoverMap) {
   // The larger is the ground that the other is painted on.
   EXPECT_EQ(layers.ground_painted_as, LandCoverClass::pasture);
   EXPECT_EQ(layers.layers[1].painted_as, LandCoverClass::rock);
-  // Rock's function of altitude is open at the top and shut at the foot.
-  EXPECT_GT(
-      layer_function_value(layers.layers[1].functions[0], layers.inputs[0], layers.model, 2400.0),
-      0.8);
-  EXPECT_LT(
-      layer_function_value(layers.layers[1].functions[0], layers.inputs[0], layers.model, 1950.0),
-      0.2);
+  // Alone, rock's function of altitude is open at the top and shut at the foot.
+  std::vector<std::string> alone = by_map();
+  alone.insert(alone.end(), {"--inputs", "altitude"});
+  ASSERT_THAT(fit(alone), Ends(0));
+  const SurfaceLayers by_altitude = read_surface_layers(path("out.layers.toml"));
+  const auto rock_at = [&](double altitude_m) {
+    return layer_function_value(by_altitude.layers[1].functions[0], by_altitude.inputs[0],
+                                by_altitude.model, altitude_m);
+  };
+  EXPECT_GT(rock_at(2400.0), 0.8);
+  EXPECT_LT(rock_at(1950.0), 0.2);
   EXPECT_LT(std::filesystem::file_size(path("out.layers.toml")), 20'000U);
 }
 
