@@ -110,9 +110,9 @@ PlaceClimate dried_climate(const DryCountry& country, const PlaceClimate& climat
 namespace {
 
 constexpr double dry_floor_mm = 10.0;       // makes deserts with 1 and with 5 mm similar
-constexpr double dry_reach_km = 150.0;      // covariance 1 / (1 + d² / 2L²)
+constexpr double dry_reach_km = 100.0;      // covariance 1 / (1 + d² / 2L²)
 constexpr double dry_own = 0.15;            // variance of a place's own, as a share of the field's
-constexpr double dry_station_share = 0.35;  // of rain in evaporation, up to which stations are dry
+constexpr double dry_station_share = 0.42;  // of rain in evaporation, up to which stations are dry
 constexpr double coldest_dry_c = -5.0;      // mean of the year: ice sheets are no dry country
 
 double dry_covariance(const std::array<double, 3>& a, const std::array<double, 3>& b) {

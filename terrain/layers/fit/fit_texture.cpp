@@ -70,10 +70,8 @@ double spline_correlation(double x) {
   return sum / 5040.0;
 }
 
-// The energy of one octave of layer noise of weight 1, in blocks of `block` cells, its lattice
-// `spacing` cells wide. Lattice values have a variance of 1/3. Cells count as points: what their
-// averaging takes, octaves below a cell give back. On area means of known noise this finds its gain
-// within .1; counted as areas it would be .1 too high.
+// The energy of one octave of layer noise of weight 1, in blocks of `block` points, its lattice
+// `spacing` points wide. Lattice values have a variance of 1/3.
 double octave_energy(int block, double spacing) {
   const auto covariance = [&](int lag) {
     double sum = 0.0;
@@ -91,10 +89,13 @@ constexpr int coarsest_octave = 6;
 using OctaveEnergies =
     std::array<Energies, static_cast<std::size_t>(coarsest_octave - finest_octave + 1)>;
 OctaveEnergies all_octave_energies() {
+  constexpr int points = 4;  // along a cell
   OctaveEnergies table{};
   for (std::size_t i = 0; i != table.size(); ++i)
     for (std::size_t j = 0; j != levels; ++j)
-      table[i][j] = octave_energy(1 << j, exact::exp2(finest_octave + static_cast<int>(i)));
+      // Cells of a picture are means of what they cover.
+      table[i][j] =
+          octave_energy(points << j, points * exact::exp2(finest_octave + static_cast<int>(i)));
   return table;
 }
 

@@ -437,7 +437,8 @@ TEST(SceneFile, ScenesOfTheProgramAreRead) {
                   "Karwendel, an ice-age summer", "Karwendel, cleared of its forest",
                   "Karwendel after Segantini", "Karwendel: roads, railways and ways",
                   "Ötztal Alps: a synthetic winter map", "Lolo Peak", "Mountains after Monet",
-                  "Mount Rainier", "Zion Canyon", "Ötztal Alps"));
+                  "Mount Rainier", "Zion Canyon", "Ötztal Alps", "Mount Ararat",
+                  "Lost River Range, as if on Ararat"));
 }
 
 }  // namespace
