@@ -84,7 +84,7 @@ let newest_loupe = 0;
 let job_s = 3; // POST mock/job
 let stage = { stage: "", done: 0 };
 let slow_ms = 0; // what each of them takes longer: POST mock/slow
-const jobs = { render: { state: "idle" }, fetch: { state: "idle" } };
+const jobs = { render: { state: "idle" }, fetch: { state: "idle" }, painting: { state: "idle" } };
 const timers = {};
 
 // A job of two stages.

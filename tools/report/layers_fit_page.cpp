@@ -12,6 +12,7 @@
 #include "terrain/layers/fit/fit_measures.h"
 #include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/layer_coverage.h"
+#include "terrain/layers/layers_file.h"
 #include "tools/report/report.h"
 #include "tools/report/report_pictures.h"
 
@@ -164,6 +165,18 @@ void add_functions(Report& page, const KnownGround& ground, const GroundFit& fit
     table.add_row(std::move(row));
   }
   page.table(table);
+}
+
+// Functions of histograms are packed in the file, and not edited here.
+void add_editor(Report& page, const LayersFitReportInput& in) {
+  std::string text = surface_layers_text(in.layers);
+  if (text.find("{ values = [") == std::string::npos) return;
+  page.section("edit", "Draw the functions",
+               "Draw over a curve, or move its points with the arrow keys; the button saves the "
+               "file of layers with them. Left is the low end of the input's range, up is 1.");
+  page.add(
+      "functions",
+      Json::object().add("file", Json::text(in.file)).add("text", Json::text(std::move(text))));
 }
 
 // The cell where most layers overlap to some extent: the first of equals.
@@ -394,6 +407,7 @@ void write_layers_fit_report(const std::string& folder, const LayersFitReportInp
   add_evaluation(page, input, evaluated);
   add_classes(page, *input.ground, colours);
   add_functions(page, *input.ground, *input.fit, colours);
+  add_editor(page, input);
   add_trace(page, input);
   add_inputs(page, *input.ground, *input.fit);
   page.write({.title = "Surface layers: " + input.title,

@@ -16,6 +16,7 @@ struct LayersFitReportInput {
   const GroundFit* fit = nullptr;
   GroundFitParameters parameters;
   SurfaceLayers layers;  // as in the file
+  std::string file;      // its name
 };
 
 // index.html, report.json and PNG pictures in a relocatable folder without network access: the

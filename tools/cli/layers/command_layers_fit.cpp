@@ -465,7 +465,8 @@ int run(const LayersFitOptions& options) {
          .ground = &known,
          .fit = &fit,
          .parameters = parameters,
-         .layers = layers},
+         .layers = layers,
+         .file = file_name(options.out)},
         progress);
   write_text_file(options.out, text);
   progress.end();

@@ -140,12 +140,71 @@ function coverage({ rows, scale }) {
   return [svg];
 }
 
+// The functions of a file of layers, plain numbers in its lines: points that are dragged, or moved by the arrow keys, and the file with them
+// to be saved.
+function functions({ file, text }) {
+  const wide = 220, high = 110, edge = 8;
+  const lines = text.split("\n");
+  const box = element("div", { class: "functions" });
+  let layer = "";
+  lines.forEach((line, index) => {
+    layer = /^name = "(.*)"$/.exec(line)?.[1] ?? layer;
+    const found = /^(\w+) = \{ values = \[([\d., ]+)\]/.exec(line);
+    if (!found) return;
+    const values = found[2].split(",").map(Number);
+    const svg = drawing("svg", { viewBox: `0 0 ${wide} ${high}`, width: wide, role: "group", "aria-label": `${layer}: ${found[1]}` });
+    const curve = drawing("path", { fill: "none", stroke: "#357" });
+    svg.append(drawing("rect", { x: edge, y: edge, width: wide - 2 * edge, height: high - 2 * edge, fill: "#fff", stroke: "#ddd" }), curve);
+    const x = (k) => edge + (k * (wide - 2 * edge)) / (values.length - 1);
+    const y = (value) => high - edge - value * (high - 2 * edge);
+    const points = values.map((_, k) => {
+      const point = drawing("circle", { cx: x(k), r: 3, fill: "#357", tabindex: k === 0 ? 0 : -1, role: "slider", "aria-valuemin": 0, "aria-valuemax": 1, "aria-label": `${found[1]}, ${k + 1} of ${values.length}` });
+      svg.append(point);
+      return point;
+    });
+    const draw = () => {
+      curve.setAttribute("d", `M${values.map((value, k) => `${x(k).toFixed(1)},${y(value).toFixed(1)}`).join("L")}`);
+      points.forEach((point, k) => { point.setAttribute("cy", y(values[k]).toFixed(1)); point.setAttribute("aria-valuenow", values[k]); });
+      lines[index] = line.replace(found[2], values.join(", "));
+    };
+    const set = (k, value) => {
+      values[k] = Math.round(1000 * Math.min(Math.max(value, 0), 1)) / 1000;
+      draw();
+    };
+    // Whatever the hand passes over follows it, so that a curve can be drawn in one stroke.
+    const follow = (event) => {
+      const at = svg.getBoundingClientRect();
+      const k = Math.round(((event.clientX - at.left) / at.width * wide - edge) / (wide - 2 * edge) * (values.length - 1));
+      if (k >= 0 && k < values.length) set(k, 1 - ((event.clientY - at.top) / at.height * high - edge) / (high - 2 * edge));
+    };
+    svg.addEventListener("pointerdown", (event) => { svg.setPointerCapture(event.pointerId); follow(event); });
+    svg.addEventListener("pointermove", (event) => { if (svg.hasPointerCapture(event.pointerId)) follow(event); });
+    svg.addEventListener("keydown", (event) => {
+      const k = points.indexOf(event.target);
+      const [aside, up] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 0.02], ArrowDown: [0, -0.02] }[event.key] ?? [0, 0];
+      if (k < 0 || (!aside && !up)) return;
+      event.preventDefault();
+      if (up) set(k, values[k] + up);
+      points[k + aside]?.focus();
+    });
+    draw();
+    box.append(element("figure", {}, svg, element("figcaption", {}, `${layer}: ${found[1]}`)));
+  });
+  const save = element("button", { type: "button" }, `Save as ${file}`);
+  save.addEventListener("click", () => {
+    const address = URL.createObjectURL(new Blob([lines.join("\n")], { type: "application/toml" }));
+    element("a", { href: address, download: file }).click();
+    URL.revokeObjectURL(address);
+  });
+  return [box, save];
+}
+
 const kinds = {
   text: (text) => [element("p", {}, text)],
   small: (text) => [element("p", {}, element("small", {}, text))],
   list: (texts) => [element("ul", {}, ...texts.map((text) => element("li", {}, text)))],
   listing: (text) => [element("pre", {}, text)],
-  pictures, table, slider, bars, coverage,
+  pictures, table, slider, bars, coverage, functions,
 };
 
 const page = [element("h1", {}, report.title), element("p", {}, report.lead)];
