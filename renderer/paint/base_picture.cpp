@@ -254,8 +254,8 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int x, int y, const Pa
       range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
   pixel.mist = hollow_mist(s.around.mist[i], g.relief_l_m[i], g.slope_deg[i], separation);
   if (pixel.mist != 0.0F)
-    pixel.mist *=
-        far_range_share(p.air, depth, g.altitude_m[i]) * static_cast<float>(s.palette.haze_share);
+    pixel.mist = pixel.mist * far_range_share(p.air, depth, g.altitude_m[i]) *
+                 static_cast<float>(s.palette.haze_share);
   pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
   pixel.end = end_at(s, i, x, patches);
   if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, woods, pixel.air);
