@@ -21,7 +21,7 @@ struct LabelMapParameters {
 // A map of labels of any size with the statistics of the model: a Gibbs field sampled from coarse
 // to fine, on lattices of every 16th, 8th … pixel, where an offset of so many pixels is one step;
 // each finer lattice begins with the result of the coarser one. Error(limit) if every 16th pixel
-// is over finest_pixels. Progress: pixels of all lattices.
+// is over max_texture_pixels. Progress: pixels of all lattices.
 Grid<std::uint8_t> make_label_map(const LabelMapModel& model, int width, int height,
                                   const LabelMapParameters& parameters,
                                   Progress& progress = silent_progress());

@@ -145,8 +145,9 @@ int run(int argc, char** argv) {
   command.add_option("--threads", threads, "Threads; 0: all").range(0, 1024);
   command.add_option("--scene", options.scene, "A scene, for the sections studio and picture");
   command.add_option("--data", options.data_folders, "Folder of its data");
-  command.add_option("--gesture", options.gesture,
-                     "One change of the section studio, alone and in the first rung: camera, sun …");
+  command.add_option(
+      "--gesture", options.gesture,
+      "One change of the section studio, alone and in the first rung: camera, sun …");
   command.add_option("section", only, "The section to run. Default: all");
   if (const std::string help = line.read({argv + (argc > 0 ? 1 : 0), argv + argc}); !help.empty()) {
     fmt::print("{}", help);

@@ -384,8 +384,9 @@ HttpAnswer PickingState::route(const HttpRequest& request) {
 Picking::Picking(PickingInput input, Progress& progress) {
   const int port = input.port;
   state_ = std::make_unique<PickingState>(std::move(input), progress);
-  if (port >= 0) state_->server.emplace(HttpParameters{.port = port, .token = random_token()},
-                         [this](const HttpRequest& request) { return answer(request); });
+  if (port >= 0)
+    state_->server.emplace(HttpParameters{.port = port, .token = random_token()},
+                           [this](const HttpRequest& request) { return answer(request); });
 }
 
 Picking::~Picking() { stop(); }

@@ -36,8 +36,8 @@ using Room = std::function<HttpAnswer(const HttpRequest& request)>;
 using OpenPicking = std::function<Room(const LoadedScene& scene, const std::string& painting,
                                        const std::string& pairs, const Run& run)>;
 // Fits the style of a painting and writes its file.
-using FitStyle = std::function<void(const std::string& painting, const std::string& style,
-                                    const Run& run)>;
+using FitStyle =
+    std::function<void(const std::string& painting, const std::string& style, const Run& run)>;
 
 struct StudioParameters {
   std::string scene;  // path

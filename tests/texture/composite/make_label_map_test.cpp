@@ -92,7 +92,7 @@ TEST(MakeLabelMap, SmallAndLargeSizesAreLimited) {
   const LabelMapModel model = learn_label_map(patches(64, 3), 3);
   EXPECT_EQ(make_label_map(model, 3, 1, {.effort = .2}).width(), 3);
   EXPECT_THROW(make_label_map(model, 0, 5, {}), Error);
-  EXPECT_THROW(make_label_map(model, 1 << 14, 1 << 14, {}), Error);
+  EXPECT_THROW(make_label_map(model, 1 << 18, 1 << 18, {}), Error);
 }
 
 // Maps over the limit are sampled on every second, fourth … pixel, at the scale of the model.

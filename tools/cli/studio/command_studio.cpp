@@ -77,8 +77,7 @@ int run_studio(const StudioOptions& options) {
         std::make_shared<Picking>(picking_input(of, painting, pairs, given), given.progress);
     return [picking](const HttpRequest& request) { return picking->answer(request); };
   };
-  const FitStyle fit = [](const std::string& painting, const std::string& style,
-                          const Run& given) {
+  const FitStyle fit = [](const std::string& painting, const std::string& style, const Run& given) {
     write_fitted_style(painting, style, given.progress);
   };
   Studio studio({scene, options.files, options.page.port, open, pick, fit}, run);

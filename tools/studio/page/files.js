@@ -24,6 +24,7 @@ const uses = {
   painting: [
     { label: "Copy its paint", changes: (file) => [{ key: "exemplar", append: { picture: file } }] },
     { label: "Take its style", work: "style", changes: (file) => [{ key: "style.file", value: file }] },
+    { label: "Pair its places with the map…", work: "pick" }, // leads to another page
   ],
 };
 const kinds = {
@@ -103,7 +104,8 @@ export class Files {
             for (const each of all) each.disabled = true;
             try {
               const file = work ? await work_on(work, found.file, (words) => (says.textContent = ` ${words}`)) : found.file;
-              this.store.edit(changes(file, this.store), new_step());
+              if (changes) this.store.edit(changes(file, this.store), new_step());
+              else location.assign(file);
               this.dialog.close();
             } catch (error) {
               says.replaceChildren(element("span", { class: "fault" }, ` ${error.message}`));

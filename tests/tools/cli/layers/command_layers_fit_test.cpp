@@ -187,9 +187,8 @@ TEST_F(LayersFitCommand, ReportHoldsItsPage) {
   arguments.insert(arguments.end(), {"--report", path("report")});
   ASSERT_EQ(fit(arguments).status, 0);
   const std::string page = read_bytes(path("report/index.html"));
-  for (const char* part :
-       {"judgement", "functions", "trace", "inputs", "reproduction", "\"slider\": [",
-        "\"file\": \"out.layers.toml\"", "{ values = ["})
+  for (const char* part : {"judgement", "functions", "trace", "inputs", "reproduction",
+                           "\"slider\": [", "\"file\": \"out.layers.toml\"", "{ values = ["})
     EXPECT_THAT(page, HasSubstr(part));
   EXPECT_THAT(page, Not(HasSubstr(path(""))));
   EXPECT_TRUE(std::filesystem::exists(path("report/original.png")));
