@@ -1429,6 +1429,7 @@ test("a lift is drawn by clicks, named, given another point and removed", async 
 });
 
 test("a trail is drawn on the map, and shown there and in the picture", { skip: no_mock }, async () => {
+  await finished();
   await panel("names");
   await page.select(".drawing select", "path");
   await page.click("#draw");
@@ -1448,6 +1449,7 @@ test("a trail is drawn on the map, and shown there and in the picture", { skip: 
   const { drawn } = await scene();
   assert.deepEqual([drawn.features[0].properties.kind, drawn.features[0].geometry.coordinates.length], ["path", 3]);
   await undo();
+  await finished();
 });
 
 test("a painting that is dropped gives its style", { skip: no_mock }, async () => {
