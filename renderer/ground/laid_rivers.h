@@ -68,9 +68,11 @@ std::vector<CoverRiver> refine_rivers(std::vector<CoverRiver> rivers, const Land
 // The kind of such strips, none of a style.
 constexpr int shore_kind = -2;
 
+// Breadth of the broadest gravel, in units of the sheet.
+constexpr double max_shore_units = 3.4;
+
 // Riparian strips of ground along drawn rivers, which the river covers up to its banks: gravel on
 // inner banks, groves of trees on outer banks, both with gaps.
-constexpr double max_shore_units = 3.4;  // breadth of the broadest gravel
 struct ShoreParameters {
   std::uint64_t seed = 1;
   // Units of the sheet (0.5 mm) in a metre across river `i` at each of its positions; 0: unseen.

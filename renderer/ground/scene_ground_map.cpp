@@ -347,8 +347,8 @@ bool has_groves(LandCoverClass id) {
   return id == valley_floor || id == pasture || id == shrub || id == forest || id == sand;
 }
 
-// Whether banks and shores are drawn: not in previews where even the broadest are about a pixel,
-// because all rivers get theirs again for each view.
+// Whether banks and shores are drawn: not in previews where even the broadest is about a pixel
+// wide, because they are made for all rivers whenever the camera moves.
 bool draws_banks(const Scene& scene) {
   constexpr double broad_px = 1.2;
   return !(scene.terrain.preview_mcells > 0.0 &&

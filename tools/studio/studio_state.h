@@ -50,8 +50,8 @@ struct StudioParameters {
 
 class Job;
 
-// State shared by the studio's files: studio.cpp finds the answer to a request,
-// studio_pictures.cpp, studio_files.cpp and studio_places.cpp have the longer ones.
+// State shared by the studio's files: studio.cpp finds the answer to a request, studio_pictures.cpp
+// has the longer ones.
 struct StudioState {
   StudioState(const StudioParameters& parameters, const Run& given);
   ~StudioState();

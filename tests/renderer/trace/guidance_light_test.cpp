@@ -169,6 +169,19 @@ TEST_F(WallUnderTwoSuns, PartsAndTilesHaveTheBitsOfTheWhole) {
   }
 }
 
+// Shadows of another sun are traced alone over what is traced already.
+TEST_F(WallUnderTwoSuns, ShadowsAloneHaveTheBitsOfTheWhole) {
+  for (const int samples : {1, 4}) {
+    parameters_.sampling.pixel_samples = samples;
+    const GuidanceBuffers whole = trace(world_, *camera_, parameters_);
+    const PixelRect part{21, 35, 90, 101};
+    const Grid<float> shadow = trace_shadows(world_.terrain, world_.surface, *world_.tracer,
+                                             *camera_, parameters_, part, silent_progress());
+    for (const auto [x, y] : test::cells(part))
+      ASSERT_EQ(shadow(x - part.x0, y - part.y0), whole.shadow(x, y)) << x << " " << y;
+  }
+}
+
 // A region with the picture's own sun changes nothing, however it is written.
 TEST_F(WallUnderTwoSuns, ARegionOfTheSameSunCastsTheSameShadows) {
   const LightRegion same{.centre = {654500.0, wall_y},
