@@ -31,6 +31,7 @@ tested_by = {
     "terrain/io/gdal/raster_*": ("terrain/io/raster_io", "GDAL's side of raster_io.h: round trips, damaged files, nodata, limits"),
     "terrain/io/warp": ("terrain/io/raster_io", "Reprojection…, TilesJoin…, FinerSourcesAreAveraged; values between cells: resample_test"),
     "terrain/layers/surface_layers": ("terrain/layers/layer_coverage", "TablesAndHatsEqualTheirDefinition; checks: layers_file_test"),
+    "terrain/layers/fit/textured_layers": ("terrain/layers/fit/fit_texture", "the textures found, as layers paint them"),
     "terrain/synthetic/synthetic_*":
         ("terrain/synthetic/synthetic", "steps to one terrain, whose ridges, valleys and lakes are measured whole"),
     "texture/quality/picture_measures": ("texture/quality/quality", "each measure is tested where the report takes it"),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "terrain/layers/fit/ground_fit.h"
@@ -14,6 +15,8 @@ struct ClassTexture {
   double strength = 0.0;  // lightness (mean of the channels, 0…255) per unit of this noise; 0: none
   double roughness_m =
       0.0;  // ± height of bumps as long as a cell, from the part that light explains
+  double deviation = 0.0;  // standard deviation of the evenly lit lightness, 0…255
+  std::array<std::array<double, 2>, 3> range{};  // 2nd and 98th percentile of red, green, blue
 };
 
 // The texture of each class, from the evenly lit picture less its expected colours. The energy of
@@ -23,11 +26,7 @@ struct ClassTexture {
 std::vector<ClassTexture> class_textures(const KnownGround& ground, const GroundFit& fit,
                                          const GroundPrediction& prediction);
 
-// The layers of a fit (surface_layers_of) with noise and bumps. Noise makes patches of layers, so
-// that the colours of each class vary as strongly as in the picture as far as its layers' colours
-// allow; a layer that covers a place entirely keeps it. Each has noise of its own (scale within a
-// factor √2 of its class's) and keeps its mean coverage.
-SurfaceLayers with_textures(SurfaceLayers layers, const KnownGround& ground, const GroundFit& fit,
-                            const std::vector<ClassTexture>& textures);
+// Weights of the octaves of layer noise: gain^i, times 2 over their sum.
+std::vector<double> octave_weights(int octaves, double gain);
 
 }  // namespace belvedere

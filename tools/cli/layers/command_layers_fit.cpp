@@ -27,6 +27,7 @@
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/layers/fit/fit_texture.h"
+#include "terrain/layers/fit/textured_layers.h"
 #include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/fit/picture_classes.h"
 #include "terrain/layers/fit/picture_haze.h"
