@@ -50,17 +50,22 @@ Grid<glm::vec3> relief(const BareView& bare, const Grid<float>& altitude_m,
                             bare.view.sun_direction);
 }
 
+// Relief of the ground of the scene itself, whose surface there is already.
+Grid<glm::vec3> relief(const BareView& bare) {
+  return make_relief_sketch(*bare.generalized_m, bare.dem->transform, {}, bare.deformation,
+                            *bare.tracer, *bare.camera, bare.view.sun_direction);
+}
+
 void add_ground(std::vector<MakingStep>& steps, const LoadedScene& loaded, const Run& run) {
   const BareView bare = make_bare_view(loaded, run.progress, run.cache);
   run.progress.begin("drawing the relief", 3.0);
-  const auto add = [&](const char* file, const char* caption, const Grid<float>& altitude_m,
-                       const Deformation& deformation) {
-    steps.push_back({file, caption, relief(bare, altitude_m, deformation)});
+  const auto add = [&](const char* file, const char* caption, Grid<glm::vec3> picture) {
+    steps.push_back({file, caption, std::move(picture)});
     run.progress.advance(1.0);
   };
-  add("measured", "the ground as measured", bare.dem->altitude_m, Deformation());
-  add("generalized", "generalized for this view", *bare.generalized_m, Deformation());
-  add("bent", "raised, moved and bent", *bare.generalized_m, bare.deformation);
+  add("measured", "the ground as measured", relief(bare, bare.dem->altitude_m, Deformation()));
+  add("generalized", "generalized for this view", relief(bare, *bare.generalized_m, Deformation()));
+  add("bent", "raised, moved and bent", relief(bare));
 }
 
 Grid<glm::vec3> class_picture(const GuidanceBuffers& guidance) {
@@ -125,11 +130,35 @@ std::vector<MakingStep> make_making_of(const LoadedScene& loaded, const Run& run
   return steps;
 }
 
-Grid<glm::vec3> draw_making_of(const std::vector<MakingStep>& steps, int step_px) {
+std::vector<MakingStep> make_deformation_steps(const LoadedScene& loaded, const Run& run) {
+  const RunLimits limits(run);
+  const BareView bare = make_bare_view(loaded, run.progress, run.cache);
+  run.progress.begin("drawing the relief", 3.0);
+  std::vector<MakingStep> steps;
+  const auto add = [&](const char* file, const char* caption, Grid<glm::vec3> picture) {
+    steps.push_back({file, caption, std::move(picture)});
+    run.progress.advance(1.0);
+  };
+  add("undeformed", "undeformed", relief(bare, *bare.generalized_m, Deformation()));
+  DeformParameters progressive = bare.view.deform;
+  progressive.summits.clear();
+  progressive.handles.clear();
+  progressive.field.places.clear();
+  const bool local =
+      bare.deformation.moves_in_plan() || !bare.deformation.parameters().summits.empty();
+  add("progressive", "progressive deformation",
+      local ? relief(bare, *bare.generalized_m, Deformation(progressive, bare.view.viewer_xy))
+            : relief(bare));
+  if (local) add("local", "progressive and local deformation", relief(bare));
+  return steps;
+}
+
+Grid<glm::vec3> draw_making_of(const std::vector<MakingStep>& steps, int step_px,
+                               std::size_t columns) {
   PictureTable table;
-  table.columns = {"", ""};
+  table.columns.resize(columns);
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (i % 2 == 0) table.cells.emplace_back();
+    if (i % columns == 0) table.cells.emplace_back();
     table.cells.back().push_back({reduced_picture(steps[i].picture, step_px),
                                   fmt::format("{}  {}", i + 1, steps[i].caption)});
   }
@@ -146,6 +175,7 @@ struct FigureOptions {
   std::string out;
   int width_px = 0;  // 0: the scene's
   bool making = false;
+  bool deformation = false;
 };
 
 // A column of the figure: a picture with the guides of copying from it or to it.
@@ -256,9 +286,49 @@ void add_making_of(Report& page, const LoadedScene& loaded, const Run& run) {
   page.picture("making", draw_making_of(steps, figure_px), "making.png");
 }
 
+// Ends the page and tells where its sheet is.
+int finish(Report& page, const FigureOptions& options, const LoadedScene& loaded,
+           const std::string& sheet_name, const char* counted, std::size_t count) {
+  std::string command = "belvedere figure " + file_name(options.scene.scene);
+  for (const std::string& setting : options.scene.files.settings)
+    command += fmt::format(" --set '{}'", setting);
+  if (options.width_px > 0) command += fmt::format(" --width {}", options.width_px);
+  if (options.making) command += " --making";
+  if (options.deformation) command += " --deformation";
+  page.write({.title = "Figure of " + loaded.name,
+              .lead = fmt::format("{} × {} pixels.", loaded.scene.output.width,
+                                  loaded.scene.output.height),
+              .command = command + " --out " + file_name(options.out)});
+  const std::string sheet = (std::filesystem::path(options.out) / sheet_name).string();
+  print_result(options.scene,
+               Json::object()
+                   .add("sheet", Json::text(sheet))
+                   .add(counted, Json::number(static_cast<double>(count))),
+               sheet + "\n");
+  return 0;
+}
+
+int show_deformation(const FigureOptions& options, const LoadedScene& loaded) {
+  Report page(options.out);
+  TerminalProgress progress(options.scene.quiet);
+  const Cache cache = make_cache(options.scene);
+  const std::vector<MakingStep> steps =
+      make_deformation_steps(loaded, make_run(options.scene, Run{}.tile_px, progress, cache));
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    page.write_picture(fmt::format("deformation_{}_{}", i + 1, steps[i].file), steps[i].picture);
+  page.section("deformation", "How the ground is deformed",
+               "The same ground from the same viewpoint: as it is, bent and exaggerated by "
+               "distance, and with summits raised and mountains moved as well (figure 6 of Jenny "
+               "& Jenny 2013).");
+  page.picture("deformation", draw_making_of(steps, figure_px, steps.size()), "deformation.png");
+  progress.end();
+  return finish(page, options, loaded, "deformation.png", "pictures", steps.size());
+}
+
 int run(const FigureOptions& options) {
   LoadedScene loaded = load(options.scene);
   if (options.width_px > 0) loaded = at_width(loaded, options.width_px);
+  if (options.deformation) return show_deformation(options, loaded);
   loaded.scene.output.formats = {"png"};
   Report page(options.out);
   TerminalProgress progress(options.scene.quiet);
@@ -294,23 +364,8 @@ int run(const FigureOptions& options) {
   page.picture("sheet", draw_table(table), "sheet.png");
   if (options.making)
     add_making_of(page, loaded, make_run(options.scene, Run{}.tile_px, progress, cache));
-  std::string command = "belvedere figure " + file_name(options.scene.scene);
-  for (const std::string& setting : options.scene.files.settings)
-    command += fmt::format(" --set '{}'", setting);
-  if (options.width_px > 0) command += fmt::format(" --width {}", options.width_px);
-  if (options.making) command += " --making";
-  page.write({.title = "Figure of " + loaded.name,
-              .lead = fmt::format("{} × {} pixels.", loaded.scene.output.width,
-                                  loaded.scene.output.height),
-              .command = command + " --out " + file_name(options.out)});
   progress.end();
-  const std::string sheet = (std::filesystem::path(options.out) / "sheet.png").string();
-  print_result(options.scene,
-               Json::object()
-                   .add("sheet", Json::text(sheet))
-                   .add("columns", Json::number(static_cast<double>(columns.size()))),
-               sheet + "\n");
-  return 0;
+  return finish(page, options, loaded, "sheet.png", "columns", columns.size());
 }
 
 }  // namespace
@@ -329,10 +384,16 @@ std::function<int()> add_figure(CommandOptions& command) {
                   "Width of the picture in pixels, its height in proportion. Default: the scene's")
       .type_name("N")
       .range(16, 20000);
-  command.add_flag("--making", options->making,
-                   "Also writes making.png: the ground as measured, generalized and bent, land "
-                   "cover, light, colours, copied paint if there is any, strokes.\n"
-                   "Paints the picture a second time");
+  const Option making =
+      command.add_flag("--making", options->making,
+                       "Also writes making.png: the ground as measured, generalized and bent, land "
+                       "cover, light, colours, copied paint if there is any, strokes.\n"
+                       "Paints the picture a second time");
+  command
+      .add_flag("--deformation", options->deformation,
+                "Writes only deformation.png, in seconds: the relief undeformed, with progressive "
+                "deformation, and with summits, handles and field as well (figure 6)")
+      .excludes({making});
   command.footer(
       "Rows of land cover, altitude, distance and paint, a column for each painting that is copied "
       "from and "

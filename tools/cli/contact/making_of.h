@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
@@ -22,9 +23,14 @@ struct MakingStep {
 // same as rendering makes. Takes memory for the whole sheet.
 std::vector<MakingStep> make_making_of(const LoadedScene& loaded, const Run& run);
 
-// The steps in their order, two side by side, each reduced so that the sheet is about twice
-// `step_px` wide.
-Grid<glm::vec3> draw_making_of(const std::vector<MakingStep>& steps, int step_px);
+// The generalized ground from the scene's viewpoint, as relief: undeformed; bent and exaggerated by
+// distance; and with summits, handles and field too, if the scene has any.
+std::vector<MakingStep> make_deformation_steps(const LoadedScene& loaded, const Run& run);
+
+// The steps in their order with their captions, so many side by side (≥ 1), none with a side longer
+// than `step_px`.
+Grid<glm::vec3> draw_making_of(const std::vector<MakingStep>& steps, int step_px,
+                               std::size_t columns = 2);
 
 // Land cover in the colours of the class table; pixels without a class, such as sky, are pale grey.
 glm::vec3 class_colour(std::uint8_t label);

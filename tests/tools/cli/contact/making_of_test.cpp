@@ -233,5 +233,42 @@ TEST_F(Figure, ShowsGuidesOfThePictureAndOfWhatItCopiesFrom) {
   EXPECT_LT(heights_flat, 0.6);
 }
 
+// Figure 6: the same viewpoint three times, side by side from left to right. What is local is the
+// whole difference of the last two: without it there are only the first two, bit for bit.
+TEST_F(Figure, ShowsTheDeformationStepByStep) {
+  const std::string bent = std::string(test::contact_scene) +
+                           "[deform]\nexaggeration = 1.6\n[deform.bend]\nradius_m = 40000\n";
+  const std::string turned =
+      "[[deform.handles]]\nposition = [5000, 4500]\nradius_m = 3600\ncore_m = 1200\n"
+      "rotate_deg = 50\n";
+  const std::string whole = write("whole.toml", bent + turned);
+  ASSERT_THAT(run({"figure", whole, "--quiet", "--deformation", "--out", path("a")}), Ends(0));
+  const std::vector<std::string> files = {"1_undeformed", "2_progressive", "3_local"};
+  const Grid<glm::vec3> sheet = read_picture(path("a/deformation.png"));
+  std::vector<Grid<glm::vec3>> steps;
+  glm::ivec2 before(-1);
+  for (const std::string& name : files) {
+    steps.push_back(read_picture(path("a/deformation_" + name + ".png")));
+    ASSERT_EQ(steps.back().width(), 120) << name;
+    const glm::ivec2 at = found_in(sheet, steps.back());
+    ASSERT_GE(at.x, 0) << name;
+    if (before.x >= 0) {
+      EXPECT_GE(at.x, before.x + 120) << name;
+      EXPECT_EQ(at.y, before.y) << name;
+    }
+    before = at;
+  }
+  EXPECT_NE(steps[0], steps[1]);
+  EXPECT_NE(steps[1], steps[2]);
+  EXPECT_FALSE(std::filesystem::exists(path("a/picture.png"))) << "nothing is painted";
+  const std::string progressive = write("progressive.toml", bent);
+  ASSERT_THAT(run({"figure", progressive, "--quiet", "--deformation", "--out", path("b")}),
+              Ends(0));
+  EXPECT_EQ(read_picture(path("b/deformation_1_undeformed.png")), steps[0]);
+  EXPECT_EQ(read_picture(path("b/deformation_2_progressive.png")), steps[1]);
+  EXPECT_FALSE(std::filesystem::exists(path("b/deformation_3_local.png")));
+  EXPECT_NE(run({"figure", whole, "--making", "--deformation", "--out", path("c")}).status, 0);
+}
+
 }  // namespace
 }  // namespace belvedere
