@@ -18,6 +18,7 @@
 #include "base/statistics.h"
 #include "terrain/deform/bend_curve.h"
 #include "terrain/deform/deform.h"
+#include "terrain/register/mountain_deviation.h"
 
 namespace belvedere {
 namespace {
@@ -102,11 +103,15 @@ RegisteredGround trace_registered(const RegisteredView& view) {
                        0,
                        Grid<glm::dvec2>(size_px.x, size_px.y),
                        Grid<glm::vec3>(size_px.x, size_px.y)};
-  const auto sigma_px = [&](glm::dvec2 position) {
+  const MountainDeviation mountains(registration);
+  const auto sigma_px = [&](glm::dvec2 position, double altitude_m) {
     const Displacement deviation = field.deviation(position);
     const double distance = view_distance_m(registration.frame, registration.view, position);
-    return static_cast<float>(exact::hypot(deviation.lateral_m, deviation.upward_m) *
-                              std::numbers::sqrt2 / 2.0 * focal_px / distance);
+    const double of_field = exact::hypot(deviation.lateral_m, deviation.upward_m) *
+                            std::numbers::sqrt2 / 2.0 * focal_px / distance;
+    const double moved_px2 = mountains.variance_px2(position, altitude_m);
+    return static_cast<float>(moved_px2 > 0.0 ? std::sqrt(of_field * of_field + moved_px2)
+                                              : of_field);
   };
   // It changes slowly along the ground: one value for the pixels of a row that show neighbours.
   constexpr int run_px = 4;
@@ -127,7 +132,7 @@ RegisteredGround trace_registered(const RegisteredView& view) {
       const bool same =
           x % run_px != 0 && !std::isnan(out.sigma_px(x - 1, y)) &&
           std::max(at->distance_m, distance) < neighbours * std::min(at->distance_m, distance);
-      out.sigma_px(x, y) = same ? out.sigma_px(x - 1, y) : sigma_px(at->position);
+      out.sigma_px(x, y) = same ? out.sigma_px(x - 1, y) : sigma_px(at->position, at->altitude_m);
       if (!same) distance = at->distance_m;
     }
   });
@@ -162,7 +167,6 @@ double contour_step_m(const Grid<float>& altitude_m) {
 
 Grid<glm::vec3> contours_over(const Grid<glm::vec3>& painting, const RegisteredGround& ground,
                               double step_m) {
-  constexpr float jump = 1.06F;  // of distance: a silhouette, not a slope
   const glm::vec3 black(0.05F), white(1.F), red(0.95F, 0.1F, 0.1F), yellow(1.F, 0.85F, 0.1F);
   Grid<glm::vec3> out = painting;
   const auto draw = [&](int x, int y, glm::vec3 colour, float cover) {
@@ -178,7 +182,7 @@ Grid<glm::vec3> contours_over(const Grid<glm::vec3>& painting, const RegisteredG
         skyline = skyline || std::isnan(z) != std::isnan(other);
         const float near = std::min(ground.distance_m(x, y), ground.distance_m(to.x, to.y));
         const float far = std::max(ground.distance_m(x, y), ground.distance_m(to.x, to.y));
-        const bool apart = far > jump * near;
+        const bool apart = far > silhouette_jump * near;
         silhouette = silhouette || apart;
         if (!apart) line = std::max(line, line_between(z, other, step_m));
       }

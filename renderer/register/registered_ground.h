@@ -56,11 +56,15 @@ struct RegisteredGround {
   Grid<float> altitude_m;
   Grid<float> distance_m;  // from the eye
   Grid<float> sigma_px;    // how far the place may be off in one direction: standard deviation, in
-                           // pixels of the painting, without that of the view
+                           // pixels of the painting, without that of the view; on a mountain that
+                           // was moved, what its move leaves open too (MountainDeviation)
   std::size_t folded = 0;  // folded_facets() of the view, where that is asked for
   Grid<glm::dvec2> position = {};  // CRS
   Grid<glm::vec3> normal = {};     // of the exaggerated ground, where handles moved it
 };
+
+// Ratio of the distances of two neighbours from which they are a silhouette, not a slope.
+inline constexpr float silhouette_jump = 1.06F;
 
 // Traces all pixels of a view, without folded facets.
 RegisteredGround trace_registered(const RegisteredView& view);

@@ -281,11 +281,7 @@ Matrix view_covariance(const PairFit& fit, double sigma_px) {
     for (std::size_t k = 0; k < precision.rows(); ++k) precision(i, k) += prior(i, k);
   const std::optional<Cholesky> factors = Cholesky::of(std::move(precision));
   if (!factors) throw Error(ErrorKind::bug, "registration", "no view is likely");
-  const Matrix all = factors->inverse();
-  Matrix out(unknown::count, unknown::count);
-  for (std::size_t i = 0; i < unknown::count; ++i)
-    for (std::size_t k = 0; k < unknown::count; ++k) out(i, k) = all(i, k);
-  return out;
+  return factors->inverse();
 }
 
 PairJudgement judge_pairs(const PairFit& fit, double sigma_px) {

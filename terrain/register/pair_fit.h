@@ -72,7 +72,7 @@ std::vector<DisplacedPlace> displaced_places(const PairFit& fit);
 // Each pair by the others. One deviation of the view's priors weighs like two pixels of sigma_px.
 PairJudgement judge_pairs(const PairFit& fit, double sigma_px);
 
-// Covariance of the view's unknowns given the pairs.
+// Covariance of the unknowns of the view, then of each mountain, given the pairs.
 Matrix view_covariance(const PairFit& fit, double sigma_px);
 
 // The view and the mountains' moves that are most likely under the field's covariance, with the
