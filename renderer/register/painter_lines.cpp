@@ -207,8 +207,14 @@ class Search {
   }
 
   const PainterLines& lines() const { return lines_; }
+  double unexplained() const { return best_; }
   Explanation explain(const PainterLines& lines) const {
     return colours_.explain(classes_of_(lines));
+  }
+
+  void take(const Search& other) {
+    lines_ = other.lines_;
+    best_ = other.best_;
   }
 
   // The best of a line's altitudes, if it gains enough.
@@ -260,19 +266,31 @@ PainterLines find_painter_lines(std::span<const PaintSample> samples, double min
   const Colours colours(samples);
   Search search(colours, classes_of);
   search.scan(&PainterLines::treeline_m, min_m, max_m);
+  const Search without_snow = search;
   search.scan(&PainterLines::snowline_m, min_m, max_m);
+  search.refine(&PainterLines::snowline_m);  // or ice would mend the last step
+  // Glaciers reach below the snow line on flat ground; either line may pass for both.
+  Search ice_first = without_snow;
+  search.scan(&PainterLines::ice_line_m, min_m, max_m);
+  ice_first.scan(&PainterLines::ice_line_m, min_m, max_m);
+  if (ice_first.lines().ice_line_m > 0.0) {
+    ice_first.scan(&PainterLines::snowline_m, min_m, max_m);
+    if (ice_first.unexplained() < search.unexplained() - min_gain) search.take(ice_first);
+  }
   // Snow that was taken for other ground may have pulled at the first line.
   if (search.lines().snowline_m > 0.0) search.scan(&PainterLines::treeline_m, min_m, max_m);
   search.refine(&PainterLines::treeline_m);
   search.refine(&PainterLines::snowline_m);
+  search.refine(&PainterLines::ice_line_m);
   PainterLines out = search.lines();
-  const PainterLines snowed{out.treeline_m, 0.0, true};
+  const PainterLines snowed{out.treeline_m, 0.0, true, 0.0};
   const Explanation by_lines = search.explain(out);
   if (shows_winter(by_lines) &&
       search.explain(snowed).unexplained < by_lines.unexplained + min_gain)
     out = snowed;
   out.treeline_m = std::round(out.treeline_m);
   out.snowline_m = std::round(out.snowline_m);
+  out.ice_line_m = std::round(out.ice_line_m);
   return out;
 }
 

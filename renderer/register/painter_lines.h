@@ -15,6 +15,7 @@ struct PainterLines {
   double treeline_m = 0.0;  // where forest ends; 0: the paint does not tell
   double snowline_m = 0.0;  // where snow begins; 0: the paint does not tell
   bool winter = false;      // snow on everything but forest and steep rock
+  double ice_line_m = 0.0;  // above which glaciers form; 0: the paint does not tell
 };
 
 // Features of a pixel of the ground that are compared.
@@ -31,9 +32,9 @@ using ClassesOfLines = FunctionRef<std::vector<LandCoverClass>(const PainterLine
 // classes, the colour of a sample is linear in its normal (so that any light will do), its distance
 // and ln distance, besides a constant of its class: the lines leave the least determinant of the
 // covariance of what remains. A treeline counts only with forest darker than meadows, a snow line
-// only with snow clearly paler than all other open ground and not yellower than stone. A line that
-// gains less than half a percent is left to the rules. `winter` if meadows are as pale and as
-// colourless as snow, and snow on them explains the colours as well.
+// or an ice line only with snow and ice clearly paler than all other open ground and not yellower
+// than stone. A line that gains less than half a percent is left to the rules. `winter` if meadows
+// are as pale and as colourless as snow, and snow on them explains the colours as well.
 PainterLines find_painter_lines(std::span<const PaintSample> samples, double min_m, double max_m,
                                 ClassesOfLines classes_of);
 

@@ -67,10 +67,11 @@ void set_parameter(std::vector<std::pair<std::string, double>>& settings, std::s
 void set_lines(const PainterLines& lines, std::vector<std::pair<std::string, double>>& settings) {
   if (lines.treeline_m > 0.0) set_parameter(settings, "treeline_m", lines.treeline_m);
   if (lines.snowline_m > 0.0) set_parameter(settings, "snowline_m", lines.snowline_m);
+  if (lines.ice_line_m > 0.0) set_parameter(settings, "ice_line_m", lines.ice_line_m);
   if (lines.winter) set_parameter(settings, "winter", 1.0);
 }
 
-// The class rules of a scene on a terrain, for trying tree and snow lines.
+// The class rules of a scene on a terrain, for trying lines of trees, snow and ice.
 class RuleTrial {
  public:
   RuleTrial(const LoadedScene& scene, const Dem& dem)
@@ -90,7 +91,9 @@ class RuleTrial {
   }
 
   PainterLines climate() const {
-    return {at_middle(parameters_.climate.treeline_m), at_middle(parameters_.climate.snow_line_m)};
+    return {.treeline_m = at_middle(parameters_.climate.treeline_m),
+            .snowline_m = at_middle(parameters_.climate.snow_line_m),
+            .ice_line_m = at_middle(parameters_.climate.ice_line_m)};
   }
 
   std::vector<LandCoverClass> classes(const PainterLines& lines,
@@ -117,7 +120,7 @@ class RuleTrial {
 RegisteredCover find_registered_cover(const Grid<glm::vec3>& painting, const Grid<float>& sigma_px,
                                       const GuidanceBuffers& guidance, const LoadedScene& scene,
                                       const Dem& dem, Progress& progress) {
-  progress.begin("fitting tree and snow lines", 0.0);
+  progress.begin("fitting lines of trees, snow and ice", 0.0);
   std::vector<PaintSample> samples;
   std::vector<glm::dvec2> positions;
   std::vector<float> altitudes;

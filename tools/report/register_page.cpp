@@ -145,9 +145,11 @@ Json cover_json(const RegisteredCover& cover) {
   return Json::object()
       .add("treeline_m", line(cover.lines.treeline_m))
       .add("snowline_m", line(cover.lines.snowline_m))
+      .add("ice_line_m", line(cover.lines.ice_line_m))
       .add("winter", Json::boolean(cover.lines.winter))
       .add("treeline_by_climate_m", line(cover.climate.treeline_m))
-      .add("snowline_by_climate_m", line(cover.climate.snowline_m));
+      .add("snowline_by_climate_m", line(cover.climate.snowline_m))
+      .add("ice_line_by_climate_m", line(cover.climate.ice_line_m));
 }
 
 // Their shares of the ground.
@@ -293,11 +295,13 @@ std::string cover_words(const RegisteredCover& cover) {
   const PainterLines& lines = cover.lines;
   return fmt::format(
       "The class of each pixel, by class rules with the painter's own lines and by "
-      "the colour of the paint (classes.png).{}{}",
+      "the colour of the paint (classes.png).{}{}{}",
       line("forest", "ends", lines.treeline_m, cover.climate.treeline_m),
       lines.winter ? " It is winter: snow lies on everything but forest and steep "
                      "rock."
-                   : line("snow", "begins", lines.snowline_m, cover.climate.snowline_m));
+                   : line("snow", "begins", lines.snowline_m, cover.climate.snowline_m),
+      lines.ice_line_m > 0.0 ? line("glaciers", "form", lines.ice_line_m, cover.climate.ice_line_m)
+                             : std::string());
 }
 
 std::string light_words(const RegisteredLight& light) {

@@ -16,20 +16,23 @@ struct Slopes {
   std::vector<PaintSample> samples;
   std::vector<double> altitude_m, steep, ragged_m;
 
-  LandCoverClass at(std::size_t i, double treeline_m, double snowline_m) const {
+  // Glaciers lie on flat ground.
+  LandCoverClass at(std::size_t i, double treeline_m, double snowline_m, double ice_line_m) const {
     using enum LandCoverClass;
     const double altitude = altitude_m[i] + ragged_m[i];
+    if (altitude > ice_line_m && steep[i] < 0.4) return glacier;
     if (altitude > snowline_m && steep[i] < 0.9) return snow;
     if (steep[i] > 0.7) return rock;
     return altitude > treeline_m ? alpine_grass : forest;
   }
-  // As class rules that know the climate: lines of 0 are 2000 and 2800 m.
+  // As class rules that know the climate: lines of 0 are 2000 and 2800 m, and there is no ice.
   std::vector<LandCoverClass> classes(const PainterLines& lines) const {
     using enum LandCoverClass;
     std::vector<LandCoverClass> out;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const LandCoverClass id = at(i, lines.treeline_m > 0.0 ? lines.treeline_m : 2000.0,
-                                   lines.snowline_m > 0.0 ? lines.snowline_m : 2800.0);
+                                   lines.snowline_m > 0.0 ? lines.snowline_m : 2800.0,
+                                   lines.ice_line_m > 0.0 ? lines.ice_line_m : 9000.0);
       out.push_back(lines.winter && id == alpine_grass ? snow : id);
     }
     return out;
@@ -43,7 +46,8 @@ struct Paint {
 
 // In light from a side, in air that grows with distance, with strokes; no paint of places that
 // are wrong by 40 m.
-Slopes painted(double treeline_m, double snowline_m, const Paint& paint = {}) {
+Slopes painted(double treeline_m, double snowline_m, const Paint& paint = {},
+               double ice_line_m = 9000.0) {
   using enum LandCoverClass;
   Slopes out;
   const auto draw = [](std::uint64_t stream, int i) { return random_uniform(stream, i, 0); };
@@ -58,11 +62,11 @@ Slopes painted(double treeline_m, double snowline_m, const Paint& paint = {}) {
   for (std::size_t i = 0; i < out.samples.size(); ++i) {
     const auto n = static_cast<int>(i);
     out.altitude_m[i] += 40.0 * (draw(7, n) - 0.5);
-    const LandCoverClass id = out.at(i, treeline_m, snowline_m);
-    const glm::dvec3 own = id == forest ? paint.forest
-                           : id == rock ? paint.rock
-                           : id == snow ? paint.snow
-                                        : paint.grass;
+    const LandCoverClass id = out.at(i, treeline_m, snowline_m, ice_line_m);
+    const glm::dvec3 own = id == forest                  ? paint.forest
+                           : id == rock                  ? paint.rock
+                           : id == snow || id == glacier ? paint.snow
+                                                         : paint.grass;
     PaintSample& sample = out.samples[i];
     const double light = 0.12 * glm::dot(sample.normal, glm::normalize(glm::dvec3(-1, 1, 1)));
     const double air = 1.0 - std::exp(-sample.distance_m / 60000.0);
@@ -85,6 +89,15 @@ TEST(PainterLines, AreThoseOfThePainting) {
     EXPECT_NEAR(lines.snowline_m, snowline_m, 40.0);
     EXPECT_FALSE(lines.winter);
   }
+}
+
+// Ice that flows down flat ground to 500 m below the snow line: neither line passes for the other.
+TEST(PainterLines, TheIceLineIsThePaintersToo) {
+  const PainterLines lines = lines_of(painted(1650.0, 2900.0, {}, 2400.0));
+  EXPECT_NEAR(lines.ice_line_m, 2400.0, 60.0);
+  EXPECT_NEAR(lines.snowline_m, 2900.0, 60.0);
+  EXPECT_NEAR(lines.treeline_m, 1650.0, 60.0);
+  EXPECT_EQ(lines_of(painted(1650.0, 2550.0)).ice_line_m, 0.0) << "where no ice is painted";
 }
 
 // Pale below and dark above is not a treeline, and dark above pale is no snow.
