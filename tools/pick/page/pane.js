@@ -102,7 +102,7 @@ export class Pane extends Viewer {
         }
       }
       const over = press ? null : this.mark_at(...at);
-      canvas.classList.toggle("over", Boolean(over));
+      canvas.classList.toggle("on-mark", Boolean(over));
       this.show_tip(over, at);
     });
     canvas.addEventListener("pointerleave", () => this.show_tip(null));
