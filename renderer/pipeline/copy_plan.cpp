@@ -12,7 +12,9 @@
 #include "base/math.h"
 #include "base/progress.h"
 #include "base/random.h"
+#include "renderer/exemplar/example_sheet.h"
 #include "renderer/exemplar/exemplars.h"
+#include "renderer/exemplar/painting_colours.h"
 #include "renderer/exemplar/texture_models.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/pipeline/sheet_pieces.h"
@@ -132,11 +134,15 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
   CopyPlan plan;
   if (const std::string note = fine_print_note(world.scene); !note.empty()) run.progress.note(note);
   plan.residual = world.scene.synthesis.residual;
+  plan.water_shift = water_shift(paint.palette, paint.paintings);
   plan.exemplars = make_exemplars(loaded, world.view, paint.palette, std::move(paint.paintings),
                                   run.progress, run.cache);
   std::vector<Exemplar> copied_from;
   copied_from.reserve(plan.exemplars.size());
-  for (const PaintedExemplar& painted : plan.exemplars) copied_from.push_back(painted.exemplar);
+  for (const PaintedExemplar& painted : plan.exemplars) {
+    copied_from.push_back(painted.exemplar);
+    plan.own_sheets.push_back(painted.exemplar.name == example_sheet_name);
+  }
   const SynthesisParameters parameters = to_synthesis_parameters(world.scene);
   const glm::ivec2 sheet = world.camera->size();
   std::vector<SceneTextureModel> models = read_texture_models(loaded);

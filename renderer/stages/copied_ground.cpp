@@ -1,5 +1,6 @@
 #include "renderer/stages/copied_ground.h"
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -14,6 +15,20 @@ namespace {
 // Column and row of a sheet position as one number; sheets are at most 65535 px wide and high.
 std::uint32_t sheet_place(int x, int y) {
   return static_cast<std::uint32_t>(y) << 16U | static_cast<std::uint32_t>(x);
+}
+
+void shift_water(Grid<glm::vec3>& copied, const CopyPlan& plan, const MatchField& matches,
+                 const Grid<LandCoverClass>& shown, const Grid<float>& haze) {
+  const glm::vec3 shift = (1.F - static_cast<float>(plan.residual)) * plan.water_shift;
+  if (shift == glm::vec3(0.F)) return;
+  for (std::size_t i = 0; i < copied.size(); ++i) {
+    const std::size_t from = matches[i].exemplar;
+    const bool lent =
+        from < plan.exemplars.size() && !(from < plan.own_sheets.size() && plan.own_sheets[from]);
+    if (lent || shown[i] != LandCoverClass::water) continue;
+    const float clear = haze.empty() ? 1.F : 1.F - std::clamp(haze[i], 0.F, 1.F);
+    copied[i] = glm::clamp(copied[i] + clear * shift, 0.F, 1.F);
+  }
 }
 
 }  // namespace
@@ -53,6 +68,7 @@ Grid<glm::vec3> copy_ground(const CopyPlan& plan, const GroundPaint& paint, cons
                             PixelRect window) {
   Grid<glm::vec3> copied = transfer_residual(paint.matches, plan.exemplars, draft.base, base.haze,
                                              plan.residual, draft.land_cover);
+  shift_water(copied, plan, paint.matches, draft.land_cover, base.haze);
   if (plan.models.any())
     lay_model_paint(copied, paint.modelled, draft.base, base.haze, plan.residual, draft.land_cover);
   if (plan.seams)

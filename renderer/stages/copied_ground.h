@@ -51,6 +51,9 @@ struct CopyPlan {
   double residual = 0.75;  // share of the difference of base pictures applied to a texel, 0…1
   GroundModels models;     // of classes that are not copied
   std::optional<SeamSources> seams;  // models that synthesize seams; null: seams stay as copied
+  // How far the paintings' water is from the palette's (water_shift); 0 without paintings.
+  glm::vec3 water_shift{0.0F};
+  std::vector<bool> own_sheets;  // of the exemplars: the program painted it; empty: none
 };
 
 // Paint for a window of the sheet: copied texels, and the paint of models and synthesized seams
@@ -62,7 +65,8 @@ struct GroundPaint {
 };
 
 // Copied ground of a window, with borders of classes as strokes leave them (mix_borders), encoded
-// sRGB. `land_cover`: the class of each pixel.
+// sRGB. `land_cover`: the class of each pixel. Water that no painting lends its paint is as near to
+// the paintings' as the copied ground beside it: 1 - residual of the way.
 Grid<glm::vec3> copy_ground(const CopyPlan& plan, const GroundPaint& paint, const PaintDraft& draft,
                             const BasePicture& base, const Grid<LandCoverClass>& land_cover,
                             PixelRect window);

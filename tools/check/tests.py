@@ -65,7 +65,6 @@ tested_by = {
     "renderer/scene/scene_schema": ("renderer/scene/scene_file", "ReferenceAndSchemaAreTheCommittedOnes, EveryKeyIsDocumented"),
     "renderer/scene/scene_table_*": ("renderer/scene/scene_table", "rows of one table, which the tests go through"),
     "renderer/scene/scene_text": ("renderer/scene/scene_file", "WrittenScenesReadBack"),
-    "renderer/stages/copied_ground": ("renderer/pipeline/sheet_job", "any part of a sheet is the pixels of the whole, in every file"),
     "renderer/trace/guidance_rays": ("renderer/trace/guidance", "places and directions of a pixel's rays"),
     "tools/cli/layers/ground_climate_options":
         ("tools/cli/layers/command_layers_apply", "the same options of apply and fit: ClimateIsComputed… and its neighbours"),

@@ -1,4 +1,5 @@
 #include "renderer/exemplar/scan.h"
+#include "renderer/exemplar/painting_colours.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
