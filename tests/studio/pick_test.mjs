@@ -225,6 +225,37 @@ test("a ring is dragged, a name is typed, and all of it is there when the page i
   assert.equal(await page.$eval('#rows tr[data-index="2"] input[type=text]', (found) => found.value), "Großer Kegel");
 });
 
+test("a handle of moved ground is dragged: its centre becomes a sure pair", async () => {
+  await fitted();
+  await whole();
+  const [east, north] = position(seen[4]);
+  const centre = [east + 900, north + 700];
+  const at = [620, 330];
+  await page.evaluate(
+    (position, pixel) => {
+      const { pairs } = window.picking_views;
+      pairs.terrain = { ...pairs.terrain, handles: [{ position, moved: [position[0] + 400, position[1]], radius_m: 3000, core_m: 1200, turn_deg: 30, pixel }] };
+      window.picking_views.redraw();
+    },
+    centre,
+    at,
+  );
+  const count = (await lines()).length;
+  const from = await on_page("painting", at);
+  await page.mouse.move(...from);
+  await page.mouse.down();
+  await page.mouse.move(from[0] + 15, from[1] + 10, { steps: 5 });
+  await page.mouse.up();
+  await has(count + 1);
+  const pair = await page.evaluate(() => window.picking_views.pairs.list.at(-1));
+  const scale = await page.evaluate(() => window.picking_views.painting.scale);
+  assert.ok(pair.sure);
+  assert.deepEqual(pair.position.map(Math.round), centre.map(Math.round));
+  assert.ok(Math.hypot(pair.pixel[0] - at[0] - 15 / scale, pair.pixel[1] - at[1] - 10 / scale) < 1);
+  await page.click("#undo");
+  await has(count);
+});
+
 test("a table that another program changed is not written over", async () => {
   const before = await readFile(join(folder, "pairs.csv"), "utf8");
   await writeFile(join(folder, "pairs.csv"), before.split("\n").slice(0, 10).join("\n") + "\n");

@@ -63,6 +63,17 @@ void add_pieces(std::vector<DrawnLine>& out, const SeenLine& line, const Registe
   }
 }
 
+std::vector<DrawnHandle> handles_of_pairs(const PairsFitterInput& input, const FittedPairs& fit) {
+  std::vector<DrawnHandle> out;
+  const std::optional<Registration> found = refine_registration(fit.registration, fit.pairs, {});
+  if (!found) return out;
+  const DisplacementField field(found->displacement);
+  for (const DeformHandle& handle : handles_of(found->mountains))
+    if (const auto altitude_m = measured_altitude_m(input.drawn, handle.centre))
+      out.push_back({handle, registered_pixel(*found, field, handle.centre, *altitude_m)});
+  return out;
+}
+
 FittedTerrain terrain_of(const PairsFitterInput& input, const FittedPairs& fit,
                          Progress& progress) {
   FittedTerrain out{
@@ -80,6 +91,7 @@ FittedTerrain terrain_of(const PairsFitterInput& input, const FittedPairs& fit,
     progress.advance(0.0);
     out.seen[i] = is_seen(*out.view, input.places[i]);
   }
+  out.handles = handles_of_pairs(input, fit);
   return out;
 }
 
@@ -427,7 +439,16 @@ Json fit_json(std::uint64_t revision, const FittedPairs* fit, glm::ivec2 paintin
 Json terrain_json(std::uint64_t revision, const FittedTerrain* terrain) {
   Json lines = Json::array();
   Json hidden = Json::array();
+  Json handles = Json::array();
   if (terrain != nullptr) {
+    for (const auto& [handle, pixel] : terrain->handles)
+      handles.add(Json::object()
+                      .add("position", point(handle.centre))
+                      .add("moved", point(handle.centre + handle.move_m))
+                      .add("radius_m", rounded(handle.radius_m))
+                      .add("core_m", rounded(handle.core_m))
+                      .add("turn_deg", rounded(handle.rotate_deg))
+                      .add("pixel", point(pixel)));
     for (const DrawnLine& drawn : terrain->lines) {
       std::vector<double> points;
       for (const glm::vec2& at : drawn.line.points)
@@ -444,7 +465,8 @@ Json terrain_json(std::uint64_t revision, const FittedTerrain* terrain) {
   return Json::object()
       .add("revision", Json::number(static_cast<double>(revision)))
       .add("lines", std::move(lines))
-      .add("hidden", std::move(hidden));
+      .add("hidden", std::move(hidden))
+      .add("handles", std::move(handles));
 }
 
 std::optional<std::size_t> pair_of_place(const std::vector<ControlPair>& pairs, glm::dvec2 position,

@@ -40,12 +40,20 @@ struct DrawnLine {
   double sigma_px = 0.0;
 };
 
+// Ground that the painter moved as a whole, as the pairs tell, and the painting's pixel that shows
+// its centre.
+struct DrawnHandle {
+  DeformHandle handle;
+  glm::dvec2 pixel{0.0};
+};
+
 // The terrain as the fitted pairs show it. Where pairs are too few to trace it, without a view and
 // lines, and all places in the painting count as seen.
 struct FittedTerrain {
   std::unique_ptr<const RegisteredView> view;
   std::vector<DrawnLine> lines;
   std::vector<bool> seen;  // of the known places
+  std::vector<DrawnHandle> handles = {};
 };
 
 struct PairsFitterInput {

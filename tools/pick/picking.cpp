@@ -149,6 +149,7 @@ struct PickingState {
   void edit(const std::string& name, const std::string& body);
   ControlPair edited(ControlPair pair, const std::string& body) const;
   std::size_t pair_number(const std::string& body) const;
+  glm::dvec2 pixel_of_moved(glm::dvec2 position, glm::dvec2 moved) const;
   std::optional<KnownPlace> ground_at(glm::dvec2 position) const;
   KnownPlace place_at(glm::dvec2 position) const;
   HttpAnswer place(const HttpRequest& request);
@@ -230,6 +231,18 @@ std::size_t PickingState::pair_number(const std::string& body) const {
   return static_cast<std::size_t>(number);
 }
 
+// Where the painting shows the ground of a position if it stands at `moved`.
+glm::dvec2 PickingState::pixel_of_moved(glm::dvec2 position, glm::dvec2 moved) const {
+  const std::shared_ptr<const FittedPairs> fit = fitter.latest().fit;
+  if (fit == nullptr)
+    throw Error(ErrorKind::usage, "moved", "no view is fitted yet", "more pairs, or a pixel");
+  const Registration& found = fit->registration;
+  const ViewPixel at =
+      project_in_view(found.frame, found.view, moved, place_at(position).altitude_m);
+  return glm::clamp(found.scale * glm::dvec2(at.u.value, at.v.value), glm::dvec2(0.0),
+                    glm::dvec2(painting_px));
+}
+
 // A pair with what a request says of it.
 ControlPair PickingState::edited(ControlPair pair, const std::string& body) const {
   if (const auto pixel = read_point_member(body, "pixel")) pair.pixel = rounded_to(*pixel, 10.0);
@@ -237,6 +250,9 @@ ControlPair PickingState::edited(ControlPair pair, const std::string& body) cons
     place_at(*position);  // refuses what lies outside
     pair.lonlat = rounded_to(transform_point(dem.crs, normalize_crs("EPSG:4326"), *position), 1e7);
   }
+  if (const auto moved = read_point_member(body, "moved"))
+    pair.pixel = rounded_to(
+        pixel_of_moved(read_point_member(body, "position").value_or(pair.position), *moved), 10.0);
   pair.name = one_line(read_text_member(body, "name", pair.name));
   pair.sure = read_flag_member(body, "sure").value_or(pair.sure);
   return pair;
@@ -245,7 +261,8 @@ ControlPair PickingState::edited(ControlPair pair, const std::string& body) cons
 void PickingState::edit(const std::string& name, const std::string& body) {
   std::vector<ControlPair> pairs = session.pairs();
   if (name == "add") {
-    if (!read_point_member(body, "pixel") || !read_point_member(body, "position"))
+    const bool painted = read_point_member(body, "pixel") || read_point_member(body, "moved");
+    if (!painted || !read_point_member(body, "position"))
       throw Error(ErrorKind::usage, "pair", "lacks its pixel or its position", "both");
     pairs.push_back(edited({}, body));
   } else if (name == "change") {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <thread>
@@ -46,6 +47,7 @@ TEST_F(PairsFitterTest, SaysWhereThePlacesLieAndWhatIsSeen) {
   ASSERT_NE(terrain, nullptr);
   ASSERT_NE(terrain->view, nullptr);
   EXPECT_EQ(terrain->seen.size(), places().size());
+  EXPECT_TRUE(terrain->handles.empty()) << "nothing was moved";
   EXPECT_TRUE(std::any_of(terrain->lines.begin(), terrain->lines.end(),
                           [](const DrawnLine& drawn) { return drawn.line.skyline; }));
   // A ridge goes over the summit of each cone that is seen before farther ground.
@@ -65,6 +67,37 @@ TEST_F(PairsFitterTest, SaysWhereThePlacesLieAndWhatIsSeen) {
   }
   EXPECT_GT(seen, 10);
   EXPECT_GT(on_lines, seen / 2);
+}
+
+// Five pairs on a turned mountain tell of it.
+TEST_F(PairsFitterTest, GroundThatWasMovedHasAHandle) {
+  const DeformHandle turned{.centre = {684000.0, 5255000.0},
+                            .move_m = {700.0, -500.0},
+                            .rotate_deg = 40.0,
+                            .raise_m = 150.0,
+                            .radius_m = 4500.0,
+                            .core_m = 1800.0};
+  std::vector<ControlPair> all = test::painted_cones().pairs;
+  for (int i = 0; i < 5; ++i) {
+    ControlPair pair;
+    pair.position = turned.centre + 1500.0 * glm::dvec2(std::cos(1.2566 * i), std::sin(1.2566 * i));
+    pair.altitude_m = measured_altitude_m(test::painted_cones().dem, pair.position).value();
+    all.push_back(pair);
+  }
+  const test::SyntheticView view = test::synthetic_view(ViewKind::cylinder, all);
+  const HandleField truth({turned});
+  for (ControlPair& pair : all) pair.pixel = test::pixel_of(view, moved_by(truth, pair));
+  fitter_.fit(5, all);
+  const auto terrain = fitter_.terrain(5);
+  ASSERT_NE(terrain, nullptr);
+  ASSERT_FALSE(terrain->handles.empty());
+  const auto& [handle, pixel] = terrain->handles.front();
+  EXPECT_LT(glm::length(handle.centre - turned.centre), turned.radius_m);
+  ControlPair centre{.position = handle.centre};
+  centre.altitude_m = measured_altitude_m(test::painted_cones().dem, handle.centre).value();
+  EXPECT_LT(glm::length(pixel - test::pixel_of(view, moved_by(truth, centre))), 10.0);
+  const std::string told = terrain_json(5, terrain.get()).str();
+  EXPECT_THAT(told, testing::HasSubstr("turn_deg"));
 }
 
 TEST_F(PairsFitterTest, FewPairsHaveNoFitAndSomeHaveARoughOne) {

@@ -133,6 +133,8 @@ TEST_F(PickingTest, RefusedChangesSayWhyAndChangeNothing) {
   json outside = pair_of(world().pairs[5]);
   outside["pixel"] = {1201, 5};
   EXPECT_THAT(refused("api/add", outside), HasSubstr("x_px is \"1201\""));
+  EXPECT_THAT(refused("api/add", {{"moved", {680000, 5260000}}, {"position", {680000, 5260000}}}),
+              HasSubstr("no view is fitted"));
   EXPECT_THAT(refused("api/change", {{"pair", 3}}), HasSubstr("3"));
   EXPECT_THAT(refused("api/change", {{"pair", 0}, {"sure", "yes"}}), HasSubstr("sure"));
   EXPECT_THAT(refused("api/change", {{"pair", 0}, {"pixel", {1}}}), HasSubstr("two numbers"));
@@ -188,6 +190,25 @@ TEST_F(PickingTest, PlacesAndPixelsProposeEachOther) {
                          proposal["position"][1].get<double>() - world().pairs[3].position.y),
               1.0)
         << "it has its pair already";
+}
+
+// A handle that is dropped on the map says where its ground stands: the view shows it there.
+TEST_F(PickingTest, GroundThatStandsElsewhereIsPaintedThere) {
+  open(14);
+  fit();
+  const auto other = std::find_if(world().pairs.begin() + 14, world().pairs.end(),
+                                  [](const ControlPair& p) { return p.pixel.x < 1000.0; });
+  ASSERT_NE(other, world().pairs.end());
+  json dropped = pair_of(*other);
+  dropped.erase("pixel");
+  dropped["moved"] = {other->position.x, other->position.y};
+  const json still = posted("api/add", dropped)["pairs"][14]["pixel"];
+  EXPECT_NEAR(still[0].get<double>(), other->pixel.x, 1.0);
+  EXPECT_NEAR(still[1].get<double>(), other->pixel.y, 1.0);
+  fit();
+  dropped = {{"pair", 14}, {"moved", {other->position.x + 1000.0, other->position.y}}};
+  const json east = posted("api/change", dropped)["pairs"][14]["pixel"];
+  EXPECT_GT(east[0].get<double>(), other->pixel.x + 10.0) << "the viewer looks north";
 }
 
 TEST_F(PickingTest, TheNameOfAPlaceComesWithIt) {

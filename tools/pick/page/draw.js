@@ -1,6 +1,6 @@
 // What is drawn over the painting and over the map: rings of pairs, known places, what is proposed, and the terrain's lines.
 
-export const colours = { kept: "#7fd18b", doubt: "#f0a94b", wrong: "#ff6b5e", "": "#e9e9e9", half: "#ffd24a", offer: "#7cc4ff" };
+export const colours = { kept: "#7fd18b", doubt: "#f0a94b", wrong: "#ff6b5e", "": "#e9e9e9", half: "#ffd24a", offer: "#7cc4ff", handle: "#d9a3ff" };
 const dark = "#101418";
 
 // A ring with a dark edge, so that it shows on any ground.
@@ -47,6 +47,14 @@ export function cross(context, [x, y], colour) {
     context.lineWidth = line;
     context.stroke();
   }
+}
+
+export function square(context, [x, y], size, colour) {
+  context.fillStyle = colour;
+  context.strokeStyle = dark;
+  context.lineWidth = 1.5;
+  context.fillRect(x - size, y - size, 2 * size, 2 * size);
+  context.strokeRect(x - size, y - size, 2 * size, 2 * size);
 }
 
 export function line(context, from, to, colour, width = 1.5) {

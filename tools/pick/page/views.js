@@ -1,6 +1,6 @@
 // The painting and the map side by side, with what is known over each.
 import { by_id, clamp, draggable, metres } from "./dom.js";
-import { badge, colours, cross, line, ring, Room, sureness, terrain, text, triangle } from "./draw.js";
+import { badge, colours, cross, line, ring, Room, square, sureness, terrain, text, triangle } from "./draw.js";
 import { Pane } from "./pane.js";
 
 // Where a place is labelled: beside its mark, if there is room.
@@ -33,10 +33,10 @@ export class Views {
       [this.painting, "pixel"],
       [this.map, "position"],
     ]) {
-      pane.marks = () => pairs.list.map((pair, index) => ({ index, at: this.at(pane, pair[key]), words: this.words(index) }));
+      pane.marks = () => [...pairs.list.map((pair, index) => ({ index, at: this.at(pane, pair[key]), words: this.words(index) })), ...this.handles(pane)];
       pane.overlays.push((context) => (pane === this.painting ? this.draw_painting(context) : this.draw_map(context)));
-      pane.taken = (mark, at, exact) => (picking.half ? this.clicked(pane, at, exact) : pairs.select(mark.index));
-      pane.dragged = (mark, at, exact) => this.dragged(pane, mark.index, at, exact);
+      pane.taken = (mark, at, exact) => (picking.half || mark.handle ? this.clicked(pane, at, exact) : pairs.select(mark.index));
+      pane.dragged = (mark, at, exact) => (mark.handle ? this.handle_dragged(pane, mark.handle, at) : this.dragged(pane, mark.index, at, exact));
       pane.clicked = (at, exact) => this.clicked(pane, at, exact);
       pane.keeps_enter = () => picking.can_take();
     }
@@ -97,6 +97,23 @@ export class Views {
     }
     this.pairs.select(index);
   }
+  // Ground that the painter moved as a whole: marks at its centre, where it stands now.
+  handles(pane) {
+    if (!this.shows.terrain) return [];
+    return (this.pairs.terrain.handles ?? []).map((handle, k) => {
+      const far = Math.hypot(handle.moved[0] - handle.position[0], handle.moved[1] - handle.position[1]);
+      const words = `moved ground · ${(far / 1000).toFixed(1)} km, turned by ${handle.turn_deg.toFixed(0)}° · drag it`;
+      return { index: `handle ${k}`, handle, at: pane === this.map ? this.to_map(handle.moved) : handle.pixel, words };
+    });
+  }
+  // Where a handle is dropped its centre is painted, or stands: a sure pair.
+  async handle_dragged(pane, { position }, at) {
+    const where = pane === this.map ? { moved: this.to_ground(at) } : { pixel: [clamp(at[0], 0, pane.width), clamp(at[1], 0, pane.height)] };
+    const same = this.pairs.list.findIndex((pair) => Math.hypot(pair.position[0] - position[0], pair.position[1] - position[1]) < 1);
+    const body = { ...where, position, sure: true };
+    const taken = await (same < 0 ? this.pairs.act("add", { ...body, name: "" }) : this.pairs.act("change", { ...body, pair: same }));
+    if (taken) this.pairs.select(same < 0 ? this.pairs.list.length - 1 : same);
+  }
   // All pairs on the map, with room around them.
   show_pairs() {
     const places = this.pairs.list.map((pair) => this.to_map(pair.position));
@@ -141,6 +158,7 @@ export class Views {
       const finding = pairs.finding(index);
       if (finding && finding.residual_px * pane.scale > 3) line(context, pane.toPage(...pair.pixel), pane.toPage(...finding.shown), colours[pairs.standing(index)]);
     });
+    this.draw_handles(context, pane);
     this.draw_pairs(context, pane, (pair) => pair.pixel);
     const { half } = picking;
     if (half?.pixel) cross(context, pane.toPage(...half.pixel), colours.half);
@@ -166,6 +184,7 @@ export class Views {
     context.font = "600 13px system-ui, sans-serif";
     for (const [words, [x, y]] of names) room.take(x - 14, y - 14, x + 30 + context.measureText(words).width, y + 14);
     if (this.shows.names) this.draw_known(context, pane, room, (index) => this.to_map(pairs.setup.places[index]), false);
+    this.draw_handles(context, pane);
     this.draw_pairs(context, pane, (pair) => this.to_map(pair.position));
     for (const [words, [x, y]] of names) text(context, words, [x + 18, y + 4], { ink: "#101418", halo: "#fffd", size: 13, weight: 600 });
     if (half?.place) cross(context, pane.toPage(...this.to_map(half.place.position)), colours.half);
@@ -175,6 +194,20 @@ export class Views {
         ring(context, at, 12, colours.offer, { dot: true });
         badge(context, [at[0] - 14, at[1] - 14], String(index + 1), colours.offer);
       });
+  }
+  // On the map with the ground that moves as one piece, and that which follows in part.
+  draw_handles(context, pane) {
+    for (const { index, handle, at } of this.handles(pane)) {
+      const to = pane.toPage(...(pane.held?.mark.index === index ? pane.held.at : at));
+      if (pane === this.map) {
+        const from = pane.toPage(...this.to_map(handle.position));
+        const px = pane.scale / this.pairs.setup.map.px_m[0];
+        ring(context, from, handle.radius_m * px, colours.handle, { dash: [6, 5], dot: false, width: 1.5 });
+        ring(context, from, handle.core_m * px, colours.handle, { dot: false, width: 1.5 });
+        line(context, from, to, colours.handle, 2);
+      }
+      square(context, to, 5, colours.handle);
+    }
   }
   draw_pairs(context, pane, of) {
     const { pairs } = this;
