@@ -37,4 +37,11 @@ double painting_texels(const LoadedScene& scene);
 // another size, Error(limit) if it takes too much memory: to be called before the work begins.
 void check_paintings(const LoadedScene& scene);
 
+// `palette` with the paintings' colours: ramps of their classes, weighted by texels and with enough
+// light to show relief; for missing classes those of a fallback class, or the palette's own,
+// shifted by the mean difference of the known classes from it; sky, clouds and air from a painted
+// sky. Without any painting, the palette unchanged.
+Palette take_colours(const Palette& palette, const std::vector<ScannedPainting>& scans,
+                     const std::vector<std::pair<LandCoverClass, LandCoverClass>>& fallback);
+
 }  // namespace belvedere

@@ -14,7 +14,7 @@
 #include "base/random.h"
 #include "renderer/exemplar/example_sheet.h"
 #include "renderer/exemplar/exemplars.h"
-#include "renderer/exemplar/painting_colours.h"
+#include "renderer/exemplar/scan.h"
 #include "renderer/exemplar/texture_models.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/pipeline/sheet_pieces.h"
@@ -128,13 +128,39 @@ std::string fine_print_note(const Scene& scene) {
       dpi);
 }
 
+glm::vec3 water_shift(const Palette& palette, const std::vector<ScannedPainting>& scans) {
+  constexpr double altitude_m = 1500.0;  // for palettes that change with it
+  const auto known = [&](LandCoverClass id) {
+    return std::any_of(scans.begin(), scans.end(), [&](const ScannedPainting& scan) {
+      return !scan.ramps[static_cast<std::size_t>(id)].ramps.empty();
+    });
+  };
+  const Palette taken = take_colours(palette, scans, {});
+  const auto shift_of = [&](LandCoverClass id) {
+    glm::vec3 sum(0.F);
+    for (const double tone : ramp_tones)
+      sum += palette_colour(taken, id, altitude_m, tone) -
+             palette_colour(palette, id, altitude_m, tone);
+    return sum / static_cast<float>(ramp_tones.size());
+  };
+  glm::vec3 around(0.F);
+  float count = 0.F;
+  for (const LandCoverClass id :
+       {LandCoverClass::valley_floor, LandCoverClass::pasture, LandCoverClass::forest})
+    if (known(id)) around += shift_of(id), ++count;
+  return known(LandCoverClass::water) || count == 0.F ? shift_of(LandCoverClass::water)
+                                                      : around / count;
+}
+
 CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint,
                         const GroundStages& ground, TileStore::Place& scratch,
                         const WorkFolder& work, const Run& run, bool ground_tells) {
   CopyPlan plan;
   if (const std::string note = fine_print_note(world.scene); !note.empty()) run.progress.note(note);
   plan.residual = world.scene.synthesis.residual;
-  plan.water_shift = water_shift(paint.palette, paint.paintings);
+  // A palette of the paintings has shifted it already.
+  if (world.scene.synthesis.colours != "painting")
+    plan.water_shift = water_shift(paint.palette, paint.paintings);
   plan.exemplars = make_exemplars(loaded, world.view, paint.palette, std::move(paint.paintings),
                                   run.progress, run.cache);
   std::vector<Exemplar> copied_from;

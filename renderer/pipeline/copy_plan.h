@@ -18,6 +18,11 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
                         const GroundStages& ground, TileStore::Place& scratch,
                         const WorkFolder& work, const Run& run, bool ground_tells = true);
 
+// How far the paintings' water is from the palette's, encoded sRGB, the mean over tones: that of
+// their own water if they have any, else that of the ground around rivers (valley floor, pasture,
+// forest), else of all their classes. 0 without paintings.
+glm::vec3 water_shift(const Palette& palette, const std::vector<ScannedPainting>& scans);
+
 // The warning for a print so fine that a sheet painted by the program has too little to copy;
 // empty: not needed.
 std::string fine_print_note(const Scene& scene);

@@ -1,5 +1,4 @@
 #include "renderer/exemplar/scan.h"
-#include "renderer/exemplar/painting_colours.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
