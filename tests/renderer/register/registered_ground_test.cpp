@@ -135,6 +135,38 @@ Registration synthetic_registration(ViewKind kind, double scale) {
   return out;
 }
 
+// A mountain at the middle of the ground that was not moved, as far as is known.
+TEST(RegisteredGround, IsLessSureOnAMountainWhoseMoveIsOpen) {
+  const Dem dem = level_dem();
+  Registration found = synthetic_registration(ViewKind::plane, 1.0);
+  const glm::dvec2 summit(685000.0, 5255000.0);
+  found.mountains = {{summit, found.frame.extent_m, {}}};
+  const auto sigma_px = [&] {
+    return trace_registered(RegisteredView(found, registered_scene(found, {1200, 550}), dem,
+                                           {150, 69}, silent_progress()));
+  };
+  const RegisteredGround known = sigma_px();
+  const std::size_t unknowns = view_unknown::count + MovedMountain::unknowns;
+  found.view_covariance = Matrix(unknowns, unknowns);
+  for (std::size_t k = view_unknown::count; k < unknowns; ++k) found.view_covariance(k, k) = 1.0;
+  const RegisteredGround open = sigma_px();
+  const double radius_m = handle_of(found.mountains.front()).radius_m;
+  int on_it = 0, beside = 0;
+  for (std::size_t i = 0; i < known.sigma_px.size(); ++i) {
+    if (std::isnan(known.altitude_m[i])) continue;
+    const double distance_m = glm::length(known.position[i] - summit);
+    if (distance_m < 0.3 * radius_m) {
+      ++on_it;
+      EXPECT_GT(open.sigma_px[i], known.sigma_px[i] + 1.F);
+    } else if (distance_m > 2.0 * radius_m) {
+      ++beside;
+      EXPECT_EQ(open.sigma_px[i], known.sigma_px[i]);
+    }
+  }
+  EXPECT_GT(on_it, 5);
+  EXPECT_GT(beside, 500);
+}
+
 // The largest distance between where the registration and where its scene show places.
 double worst_px(const Registration& found, glm::ivec2 painting_px) {
   Scene scene = registered_scene(found, painting_px);
