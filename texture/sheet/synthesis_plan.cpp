@@ -75,7 +75,8 @@ std::uint64_t digest_of(const synth::Plane& plane) {
                                      static_cast<std::int64_t>(plane.words.size()));
   digest = mix_bits(digest ^ digest_of_values(plane.words));
   digest = mix_bits(digest ^ digest_of_values(plane.guides));
-  return mix_bits(digest ^ digest_of_values(plane.cuts));
+  digest = mix_bits(digest ^ digest_of_values(plane.cuts));
+  return plane.known.empty() ? digest : mix_bits(digest ^ digest_of_values(plane.known));
 }
 
 void make_sources(SynthesisPlanData& data, std::vector<synth::Plane> planes) {

@@ -116,14 +116,15 @@ Grid<std::uint8_t> guide_error(const MatchField& matches, const std::vector<Exem
   std::vector<const Grid<std::uint8_t>*> offered;
   offered.reserve(exemplars.size());
   for (const Exemplar& exemplar : exemplars) offered.push_back(exemplar.guides.find(guide));
-  if (requested == nullptr || std::find(offered.begin(), offered.end(), nullptr) != offered.end())
+  if (requested == nullptr ||
+      std::all_of(offered.begin(), offered.end(), [](const auto* of) { return of == nullptr; }))
     throw Error(ErrorKind::usage, "costs of a match field",
                 fmt::format("guide \"{}\" is missing on one side", guide),
-                "guides of the target and of every exemplar");
+                "a guide of the target and of an exemplar");
   Grid<std::uint8_t> out(matches.width(), matches.height(), 0);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const Match& m = matches[i];
-    if (m.exemplar != Match::none)
+    if (m.exemplar != Match::none && offered[m.exemplar] != nullptr)
       out[i] =
           static_cast<std::uint8_t>(std::abs((*requested)[i] - (*offered[m.exemplar])(m.x, m.y)));
   }

@@ -23,7 +23,8 @@ std::vector<Grid<std::uint32_t>> texel_uses(const MatchField& matches,
 Grid<float> seam_cost(const MatchField& matches, const std::vector<Exemplar>& exemplars,
                       const Grid<std::uint8_t>& labels, const Grid<float>& depth_m);
 
-// Difference between the texel's guide and the pixel's, 0…255.
+// Difference between the texel's guide and the pixel's, 0…255; 0 for texels of an exemplar that
+// lacks the guide. Error(usage) if the target or every exemplar lacks it.
 Grid<std::uint8_t> guide_error(const MatchField& matches, const std::vector<Exemplar>& exemplars,
                                const GuideStack& target, const std::string& guide);
 // The price of an error of a guide, at the guide's weight.

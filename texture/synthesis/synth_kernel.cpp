@@ -190,8 +190,10 @@ struct Search {
   }
 
   // guide_cost, for up to 8 guides at once where their prices fit 32 bits.
-  HWY_INLINE std::int64_t GuideCost(const std::uint8_t* offered) const {
-    if (view->vector_weights == nullptr) return guide_cost(*view, requested, offered, slack);
+  HWY_INLINE std::int64_t GuideCost(std::uint32_t texel, const std::uint8_t* offered) const {
+    const Lacking lacking = lacking_of(*view->exemplars, texel, label_class);
+    if (view->vector_weights == nullptr)
+      return guide_cost(*view, requested, offered, slack, lacking);
     const hn::CappedTag<std::uint32_t, 4> d32;
     const hn::CappedTag<std::uint16_t, 8> d16;
     const hn::Rebind<std::uint8_t, decltype(d16)> d8;
@@ -200,8 +202,9 @@ struct Search {
     for (std::size_t i = 0; i < vector_guides; i += hn::Lanes(d16)) {
       const auto a = hn::LoadU(d8, requested + i);
       const auto b = hn::LoadU(d8, offered + i);
-      const auto off = hn::SaturatedSub(hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)),
-                                        hn::LoadU(d8, free + i));
+      auto off = hn::SaturatedSub(hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)),
+                                  hn::LoadU(d8, free + i));
+      if (lacking.known != nullptr) off = hn::And(off, hn::LoadU(d8, lacking.known + i));
       const auto wide = hn::PromoteTo(d16, off);
       alignas(16) std::uint16_t squares[vector_guides];
       hn::StoreU(hn::Mul(wide, wide), d16, squares);
@@ -210,7 +213,7 @@ struct Search {
         sum = hn::Add(sum, hn::Mul(square, hn::LoadU(d32, view->vector_weights + i + k)));
       }
     }
-    return static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(d32, sum)) >> 4);
+    return static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(d32, sum)) >> 4) + lacking.price;
   }
 
   HWY_INLINE std::int64_t AroundCost(Surroundings offered) const {
@@ -229,7 +232,7 @@ struct Search {
     const TexelRecords::Record record = view->texels->at(texel);
     const std::int64_t others = static_cast<std::int64_t>(record.uses()) - (texel == own ? 1 : 0);
     if (others >= view->max_uses[label_class] && texel != own) return;
-    std::int64_t cost = join + GuideCost(record.guides()) + AroundCost(record.around()) +
+    std::int64_t cost = join + GuideCost(texel, record.guides()) + AroundCost(record.around()) +
                         (others * (others + 1) / 2 * view->reuse_q4[label_class] >> 4) +
                         view->bin_cost[label_class * 64 + record.bin()];
     if (cost > best_cost) return;
@@ -338,7 +341,7 @@ std::int64_t OnePatchCostOf(const KernelView& view, std::uint32_t pixel, std::ui
 std::int64_t OneGuidesCost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
   Search<patch_radius> search;
   search.Begin(view, pixel);
-  return search.GuideCost(view.texels->at(texel).guides());
+  return search.GuideCost(texel, view.texels->at(texel).guides());
 }
 
 template <int radius>
@@ -366,7 +369,8 @@ int BestMoveOf(const KernelView& view, const std::vector<PieceSample>& samples,
       }
       const TexelRecords::Record record = view.texels->at(texel);
       const std::int64_t others = record.uses();
-      cost += guide_cost(view, search.requested, record.guides(), search.slack) +
+      cost += guide_cost(view, search.requested, record.guides(), search.slack,
+                         lacking_of(exemplars, texel, search.label_class)) +
               search.AroundCost(record.around()) +
               (others * (others + 1) / 2 * view.reuse_q4[search.label_class] >> 4) +
               view.bin_cost[search.label_class * 64 + record.bin()];

@@ -126,9 +126,24 @@ struct Slack {
   const std::uint8_t* others = nullptr;  // by guide, from 2 on; null: no tolerance
 };
 Slack make_slack(const KernelView& view, std::uint32_t pixel);
+
+// What the exemplar of a texel lacks: a guide that it does not know costs the same for every pixel,
+// instead of a difference.
+struct Lacking {
+  const std::uint8_t* known = nullptr;  // by guide: 255, or 0 where it lacks it; null: lacks none
+  std::int64_t price = 0;
+};
+inline Lacking lacking_of(const Plane& exemplars, std::uint32_t texel, std::uint32_t label_class) {
+  if (exemplars.known.empty()) return {};
+  const std::size_t part = static_cast<std::size_t>(exemplars.part_of(texel));
+  return {exemplars.known.data() + part * static_cast<std::size_t>(exemplars.guide_count),
+          exemplars.lacking_price[part * 256 + label_class]};
+}
+
 inline std::int64_t guide_cost(const KernelView& view, const std::uint8_t* requested,
-                               const std::uint8_t* offered, Slack slack) {
+                               const std::uint8_t* offered, Slack slack, Lacking lacking = {}) {
   const auto price_of = [&](int g, int free) {
+    if (lacking.known != nullptr && lacking.known[g] == 0) return std::int64_t{0};
     const std::int32_t off = std::max(0, std::abs(requested[g] - offered[g]) - free);
     return view.guides[g].weight_q4 * off * off;
   };
@@ -138,7 +153,7 @@ inline std::int64_t guide_cost(const KernelView& view, const std::uint8_t* reque
   if (count > 1) cost += price_of(1, slack.bucketed);
   for (int g = 2; g < count; ++g)
     cost += price_of(g, slack.others == nullptr ? 0 : slack.others[g]);
-  return cost >> 4;
+  return (cost >> 4) + lacking.price;
 }
 // A texel of the pixel's class from the window of its guides: of `draws` consecutive list entries
 // from a random one on, the one with the cheapest guides and surroundings. Nowhere if the class has

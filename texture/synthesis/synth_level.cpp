@@ -269,7 +269,9 @@ std::vector<std::uint32_t> beyond_window(const LevelState& state) {
   if (!view.lists->keys().sorted) return pixels;
   state.target.for_each([&](std::uint32_t at) {
     const std::uint32_t label_class = class_of(state.target.words[at]);
-    if (label_class == no_class) return;
+    if (label_class == no_class ||
+        !state.exemplars.knows(state.exemplars.part_of(state.match[at]), 0))
+      return;
     const std::uint8_t* requested = state.target.guides_at(at);
     const int off = std::abs(requested[0] - view.texels->at(state.match[at]).guides()[0]);
     if (off > view.lists->window(label_class, requested).slack + 1) pixels.push_back(at);

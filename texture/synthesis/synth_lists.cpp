@@ -8,6 +8,7 @@
 
 #include "base/memory/zeroed_memory.h"
 #include "base/parallel.h"
+#include "base/random.h"
 
 namespace belvedere::synth {
 
@@ -98,6 +99,28 @@ PickLists::PickLists(const Plane& exemplars, const TexelDemand& demand, int clas
     return cell(c, bucket_of(values)) * 257 + static_cast<std::size_t>(value_of(values));
   };
   const std::size_t guide_count = static_cast<std::size_t>(exemplars.guide_count);
+  // Texels of an exemplar that lacks a guide of the order stand where a random request of their
+  // class does, so that every window contains its share of them.
+  std::vector<std::uint64_t> asked;  // sums of the requests before each cell and value
+  if (!exemplars.known.empty()) {
+    asked.assign(1, 0);
+    for (const std::uint32_t count : demand.counts) asked.push_back(asked.back() + count);
+  }
+  const auto keys_of = [&](std::uint32_t here, std::uint32_t c, const std::uint8_t* values) {
+    std::array<std::uint8_t, 2> keys{values[0], values[1]};
+    if (asked.empty()) return keys;
+    const int part = exemplars.part_of(here);
+    const bool value_known = !keys_.sorted || exemplars.knows(part, 0);
+    const bool bucket_known = !keys_.bucketed || exemplars.knows(part, 1);
+    const auto first = asked.begin() + static_cast<std::ptrdiff_t>(cell(c, 0) * 256);
+    const auto last = first + static_cast<std::ptrdiff_t>(buckets) * 256;
+    if ((value_known && bucket_known) || *first == *last) return keys;
+    const auto place = static_cast<std::size_t>(
+        std::upper_bound(first, last, *first + mix_bits(here) % (*last - *first)) - first - 1);
+    if (!value_known) keys[0] = static_cast<std::uint8_t>(place % 256);
+    if (!bucket_known) keys[1] = static_cast<std::uint8_t>(place / 256 * ListKeys::bucket_width);
+    return keys;
+  };
   // Calls f(texel, class, guides) along a section. Each step goes to an uncached position, so they
   // are prefetched some steps ahead.
   const auto go = [&](std::size_t stretch, auto&& f) {
@@ -119,8 +142,10 @@ PickLists::PickLists(const Plane& exemplars, const TexelDemand& demand, int clas
   parallel_rows(static_cast<int>(stretches), [&](int s) {
     std::vector<std::uint32_t>& met = next[static_cast<std::size_t>(s)];
     met.assign(kinds, 0);
-    go(static_cast<std::size_t>(s), [&](std::uint32_t, std::uint32_t c,
-                                        const std::uint8_t* values) { ++met[kind_of(c, values)]; });
+    go(static_cast<std::size_t>(s),
+       [&](std::uint32_t here, std::uint32_t c, const std::uint8_t* values) {
+         ++met[kind_of(c, keys_of(here, c, values).data())];
+       });
   });
   std::vector<std::uint32_t> counts(kinds, 0);
   start_.assign(kinds, 0);
@@ -137,7 +162,7 @@ PickLists::PickLists(const Plane& exemplars, const TexelDemand& demand, int clas
     std::vector<std::uint32_t>& position = next[static_cast<std::size_t>(s)];
     go(static_cast<std::size_t>(s),
        [&](std::uint32_t here, std::uint32_t c, const std::uint8_t* values) {
-         const std::size_t nth = position[kind_of(c, values)]++;
+         const std::size_t nth = position[kind_of(c, keys_of(here, c, values).data())]++;
          std::uint32_t* entry = entries_.data() + nth * entry_words_;
          entry[0] = here;
          std::uint8_t* bytes = reinterpret_cast<std::uint8_t*>(entry + 1);

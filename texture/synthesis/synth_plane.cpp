@@ -13,8 +13,7 @@
 namespace belvedere::synth {
 
 Plane::Place Plane::position(std::uint32_t index) const {
-  int part = static_cast<int>(parts.size()) - 1;
-  while (part > 0 && index < parts[static_cast<std::size_t>(part)].origin) --part;
+  const int part = part_of(index);
   const std::uint32_t inside = index - parts[static_cast<std::size_t>(part)].origin;
   const std::uint32_t across = static_cast<std::uint32_t>(stride);
   return {part, static_cast<int>(inside % across), static_cast<int>(inside / across)};
@@ -119,6 +118,8 @@ Plane halve(const Plane& fine) {
   for (const Plane::Part& part : fine.parts)
     sizes.emplace_back((part.width + 1) / 2, (part.height + 1) / 2);
   Plane coarse = make_plane(sizes, fine.guide_count, fine.margin);
+  coarse.known = fine.known;
+  coarse.lacking_price = fine.lacking_price;
   const std::size_t guides = static_cast<std::size_t>(fine.guide_count);
   if (!fine.cuts.empty()) coarse.cuts.assign(coarse.words.size(), 0);
   for (std::size_t p = 0; p < fine.parts.size(); ++p) {

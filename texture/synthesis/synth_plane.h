@@ -47,7 +47,23 @@ struct Plane {
   // Silhouettes of exemplars: cut::right and cut::down per word, where one lies between a texel and
   // its neighbour; empty: none.
   std::vector<std::uint8_t> cuts;
+  // Where some pictures lack guides: by part × guide_count + guide 255, or 0 where the part lacks
+  // it (eight may be read from the last part's first); and by part × 256 + class the constant price
+  // of what it lacks. Both empty: none lacks any.
+  std::vector<std::uint8_t> known;
+  std::vector<std::int64_t> lacking_price;
 
+  bool knows(int part, std::size_t guide) const {
+    return known.empty() ||
+           known[static_cast<std::size_t>(part) * static_cast<std::size_t>(guide_count) + guide] !=
+               0;
+  }
+  // The picture that contains an index; padding belongs to the one above.
+  int part_of(std::uint32_t index) const {
+    int part = static_cast<int>(parts.size()) - 1;
+    while (part > 0 && index < parts[static_cast<std::size_t>(part)].origin) --part;
+    return part;
+  }
   std::uint32_t index(int part, int x, int y) const {
     const Part& p = parts[static_cast<std::size_t>(part)];
     return p.origin + static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(stride) +

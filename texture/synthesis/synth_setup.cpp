@@ -9,8 +9,6 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/memory/zeroed_memory.h"
-#include "base/parallel.h"
 #include "base/random.h"
 #include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/synth_kernel.h"
@@ -81,14 +79,20 @@ std::vector<PairedGuide> pair_guides(const std::vector<Exemplar>& exemplars,
     pair.name = guide.name;
     pair.role.weight_q4 =
         std::llround(16.0 * static_cast<double>(price::guide) * weight_of(guide.name));
-    const bool everywhere = std::all_of(
+    const auto knowing = std::count_if(
         exemplars.begin(), exemplars.end(),
         [&](const Exemplar& exemplar) { return exemplar.guides.find(guide.name) != nullptr; });
-    if (!everywhere) {
-      note(guide.name, exemplars.size() == 1 ? "the exemplar" : "an exemplar");
-    } else if (pair.role.weight_q4 > 0) {
-      paired.push_back(std::move(pair));
+    if (knowing == 0) {
+      note(guide.name, exemplars.size() == 1 ? "the exemplar" : "every exemplar");
+      continue;
     }
+    if (pair.role.weight_q4 == 0) continue;
+    if (static_cast<std::size_t>(knowing) < exemplars.size())
+      progress.note(
+          fmt::format("guide \"{}\": {} of {} exemplars lack it and are chosen without it",
+                      guide.name, exemplars.size() - static_cast<std::size_t>(knowing),
+                      exemplars.size()));
+    paired.push_back(std::move(pair));
   }
   for (const Exemplar& exemplar : exemplars) {
     for (const Guide& guide : exemplar.guides.guides) {
@@ -199,74 +203,6 @@ LevelSettings Setup::settings(int level) const {
   const ListKeys keys = choose_list_keys(roles);
   settings.draws = roles.size() > (keys.bucketed ? 2U : 1U) ? 4 : 1;
   return settings;
-}
-
-namespace {
-
-std::vector<const Grid<std::uint8_t>*> guides_of(const GuideStack& stack, const Setup& setup,
-                                                 const char* where) {
-  std::vector<const Grid<std::uint8_t>*> guides;
-  for (const std::string& name : setup.guide_names) {
-    guides.push_back(stack.find(name));
-    if (guides.back() == nullptr)
-      throw Error(ErrorKind::usage, where, fmt::format("the guide \"{}\" is missing", name),
-                  "the guides of the plan");
-  }
-  return guides;
-}
-
-}  // namespace
-
-Plane exemplar_plane(const std::vector<Exemplar>& exemplars, const Setup& setup) {
-  std::vector<std::pair<int, int>> sizes;
-  sizes.reserve(exemplars.size());
-  for (const Exemplar& exemplar : exemplars)
-    sizes.emplace_back(exemplar.picture.width(), exemplar.picture.height());
-  Plane plane = make_plane(sizes, static_cast<int>(setup.roles.size()),
-                           padding_for(setup.parameters.patch_radius()));
-  for (std::size_t e = 0; e < exemplars.size(); ++e) {
-    const Exemplar& exemplar = exemplars[e];
-    const std::vector<const Grid<std::uint8_t>*> guides =
-        guides_of(exemplar.guides, setup, "exemplar");
-    parallel_rows(exemplar.picture.height(), [&](int y) {
-      for (int x = 0; x < exemplar.picture.width(); ++x) {
-        const std::uint32_t at = plane.index(static_cast<int>(e), x, y);
-        const Rgb8 colour = exemplar.picture(x, y);
-        plane.words[at] = colour[0] | static_cast<std::uint32_t>(colour[1]) << 8 |
-                          static_cast<std::uint32_t>(colour[2]) << 16 |
-                          setup.classes.of_exemplar[exemplar.guides.label(x, y)] << 24;
-        for (std::size_t g = 0; g < guides.size(); ++g)
-          plane.guides[at * guides.size() + g] = (*guides[g])(x, y);
-      }
-    });
-  }
-  bool any_cuts = false;
-  for (std::size_t e = 0; e < exemplars.size(); ++e)
-    if (!exemplars[e].guides.depth_m.empty())
-      any_cuts =
-          add_cuts(exemplars[e].guides.depth_m, static_cast<int>(e), depth_ratio(0), plane) ||
-          any_cuts;
-  if (!any_cuts) plane.cuts = {};
-  pad(plane);
-  prefer_large_pages(plane.words);
-  return plane;
-}
-
-Plane target_plane(const GuideStack& target, const Setup& setup) {
-  const std::vector<const Grid<std::uint8_t>*> guides =
-      guides_of(target, setup, "target of synthesis");
-  Plane plane = make_plane({{target.width(), target.height()}}, static_cast<int>(guides.size()),
-                           padding_for(setup.parameters.patch_radius()));
-  parallel_rows(target.height(), [&](int y) {
-    for (int x = 0; x < target.width(); ++x) {
-      const std::uint32_t at = plane.index(0, x, y);
-      plane.words[at] = setup.classes.of_target[target.label(x, y)] << 24;
-      for (std::size_t g = 0; g < guides.size(); ++g)
-        plane.guides[at * guides.size() + g] = (*guides[g])(x, y);
-    }
-  });
-  pad(plane);
-  return plane;
 }
 
 int level_count(const std::vector<Exemplar>& exemplars, int width, int height, int requested) {
@@ -402,12 +338,14 @@ std::uint32_t cheapest_entry(const KernelView& view, std::uint32_t pixel, const 
   const std::uint8_t* requested = view.target->guides_at(pixel);
   const Surroundings requested_around =
       view.around_price == nullptr ? Surroundings() : view.target_around[pixel];
+  const std::uint32_t own = class_of(view.target->words[pixel]);
   slack.others = nullptr;  // picks are as good as possible
   std::uint32_t best = view.exemplars->nowhere();
   std::int64_t best_cost = INT64_MAX;
   for (std::uint32_t i = 0; i < std::min(run.count, static_cast<std::uint32_t>(draws)); ++i) {
     const PickLists::Entry entry = view.lists->entry(run.entry(i));
-    const std::int64_t cost = guide_cost(view, requested, entry.guides(), slack) +
+    const std::int64_t cost = guide_cost(view, requested, entry.guides(), slack,
+                                         lacking_of(*view.exemplars, entry.texel(), own)) +
                               surroundings_cost(view, requested_around, entry.around()) +
                               further(entry);
     if (cost < best_cost) {

@@ -39,9 +39,11 @@ std::vector<std::uint8_t> usual_errors_of_picks(const LevelState& state) {
       const std::uint32_t label_class = class_of(state.target.words[at]);
       if (label_class == no_class) continue;
       const std::uint8_t* requested = state.target.guides_at(at);
-      const std::uint8_t* offered =
-          state.texels.at(draw_texel(view, at, key, x, y, make_slack(view, at))).guides();
+      const std::uint32_t texel = draw_texel(view, at, key, x, y, make_slack(view, at));
+      const std::uint8_t* offered = state.texels.at(texel).guides();
+      const int exemplar = state.exemplars.part_of(texel);
       for (std::size_t g = 0; g < guides; ++g) {
+        if (!state.exemplars.knows(exemplar, g)) continue;
         ++counts[(label_class * guides + g) * 256 +
                  static_cast<std::size_t>(std::abs(requested[g] - offered[g]))];
       }

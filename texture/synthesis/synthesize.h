@@ -10,8 +10,9 @@ namespace belvedere {
 // Guided texture synthesis (measured in docs/synthesis.md): computes the match field of the target.
 // Coherent candidates and picks by guides, filtered by label, coarse to fine, with integer costs
 // and double-buffered parity passes: the same for any threads and tiles.
-// Guides are paired by name; one that any exemplar or the target lacks is unused, and progress.note
-// reports it once. The two with the largest weights order the lists of picks (synth_lists.h): give
+// Guides are paired by name; one that the target or every exemplar lacks is unused. Texels of an
+// exemplar that alone lacks a guide cost what random texels of their class would in it, whatever is
+// asked for. progress.note reports both once. The two with the largest weights order the lists of picks (synth_lists.h): give
 // the largest weights to the guides that must be met exactly. A class without texels takes its
 // fallback, or Match::none; a note reports it. Pixels labelled 255 get Match::none. If the target
 // has depths, patches end at a jump of more than 4 % from one pixel to the next, and no two

@@ -26,11 +26,11 @@ double weight_of(const SynthesisParameters& parameters, const std::string& guide
   return weight;
 }
 
-// Guides that exemplars and target share and that have a weight.
+// Guides of the target and of an exemplar that have a weight.
 std::vector<std::string> guides_in_use(const SynthesisReportInput& in) {
   std::vector<std::string> names;
   for (const Guide& guide : in.target.guides) {
-    const bool shared = std::all_of(
+    const bool shared = std::any_of(
         in.exemplars.begin(), in.exemplars.end(),
         [&](const Exemplar& exemplar) { return exemplar.guides.find(guide.name) != nullptr; });
     if (shared && weight_of(in.parameters, guide.name) > 0.0) names.push_back(guide.name);
@@ -49,6 +49,11 @@ GuideFindings look_at_guide(const SynthesisReportInput& in, const std::string& n
   GuideFindings of;
   of.name = name;
   of.weight = weight_of(in.parameters, name);
+  for (std::size_t e = 0; e < in.exemplars.size(); ++e)
+    if (in.exemplars[e].guides.find(name) == nullptr)  // its texels cost nothing in the maps
+      matched -= static_cast<std::size_t>(
+          std::count_if(in.matches.begin(), in.matches.end(),
+                        [&](const Match& match) { return match.exemplar == e; }));
   const Grid<std::uint8_t> off = guide_error(in.matches, in.exemplars, in.target, name);
   Grid<float> errors(off.width(), off.height());
   std::copy(off.begin(), off.end(), errors.begin());

@@ -249,6 +249,46 @@ TEST_P(EachVectorWidth, PatchesEndAtSilhouettes) {
   }
 }
 
+// Texels of a part that lacks guides cost its constant price and the guides that it knows, by both
+// methods.
+TEST_P(EachVectorWidth, LackedGuidesCostTheirPrice) {
+  for (const int count : {2, 5, 8, 9}) {
+    Plane exemplars = noise_plane({{23, 17}, {9, 31}}, count, 5, false);
+    Plane target = noise_plane({{19, 21}}, count, 50, false);
+    const std::size_t guides = static_cast<std::size_t>(count);
+    exemplars.known.assign(2 * guides + vector_guides, 255);
+    exemplars.known[guides] = exemplars.known[2 * guides - 1] = 0;  // of the second part
+    exemplars.lacking_price.assign(512, 0);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(classes); ++c)
+      exemplars.lacking_price[256 + c] = 1000 * static_cast<std::int64_t>(c + 1);
+    const std::vector<GuideRole> roles(guides, {64});
+    LevelState state(settings_for_level(1, 1, 240, 1.0), roles, classes, exemplars, target, {});
+    const KernelView view = state.view(0);
+    const std::uint32_t pixel = target.index(0, 9, 9);
+    const Slack slack = make_slack(view, pixel);
+    const std::uint32_t c = class_of(target.words[pixel]);
+    int seen = 0;
+    exemplars.for_each([&](std::uint32_t texel) {
+      if (class_of(exemplars.words[texel]) != c) return;
+      const bool second = texel >= exemplars.parts[1].origin;
+      std::int64_t sum = 0;
+      for (int g = 0; g < count; ++g) {
+        if (second && (g == 0 || g == count - 1)) continue;
+        const std::int64_t free = g == 0   ? slack.sorted
+                                  : g == 1 ? slack.bucketed
+                                           : slack.others[g];
+        const std::int64_t off = std::max<std::int64_t>(
+            0, std::abs(target.guides_at(pixel)[g] - exemplars.guides_at(texel)[g]) - free);
+        sum += 64 * off * off;
+      }
+      const std::int64_t price = second ? 1000 * static_cast<std::int64_t>(c + 1) : 0;
+      ASSERT_EQ(guides_cost(view, pixel, texel), (sum >> 4) + price) << count << ", " << texel;
+      seen += second ? 1 : 0;
+    });
+    EXPECT_GT(seen, 10);
+  }
+}
+
 // One sub-pass against an exhaustive search with the same prices: every pixel must end at the
 // cheapest of all that it may copy, and nothing else may change.
 void expect_cheapest_candidates(bool with_silhouettes) {

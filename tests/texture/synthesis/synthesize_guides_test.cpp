@@ -10,6 +10,7 @@
 #include "tests/texture/synthesis/synthetic_land.h"
 #include "texture/quality/quality.h"
 #include "texture/synthesis/match_cost.h"
+#include "texture/synthesis/synth_setup.h"
 #include "texture/synthesis/synthesize.h"
 
 namespace belvedere {
@@ -124,6 +125,105 @@ TEST(SynthesizeGuides, ASecondPaintingLowersReuse) {
   RecordProperty("one_painting", std::to_string(alone));
   RecordProperty("two_paintings", std::to_string(shared));
   EXPECT_LT(shared, 0.65 * alone);
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const double n = static_cast<double>(a.size());
+  double sa = 0.0, sb = 0.0, saa = 0.0, sbb = 0.0, sab = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sa += a[i];
+    sb += b[i];
+    saa += a[i] * a[i];
+    sbb += b[i] * b[i];
+    sab += a[i] * b[i];
+  }
+  return (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
+}
+
+// A ramp of altitude from left to right, up to `highest`.
+Grid<std::uint8_t> altitude_ramp(int width, int height, int highest) {
+  Grid<std::uint8_t> values(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      values(x, y) = static_cast<std::uint8_t>(highest * x / (width - 1));
+  return values;
+}
+
+// An exemplar without the altitude keeps the others' altitude, and serves where they have none: the
+// complete one was painted at the lower half of the altitudes asked for.
+TEST(SynthesizeGuides, APoorExemplarLeavesTheOthersTheirGuides) {
+  std::vector<Exemplar> both(2);
+  for (std::size_t e = 0; e < 2; ++e) {
+    both[e].name = e == 0 ? "complete" : "without altitude";
+    both[e].picture = Grid<Rgb8>(160, 160);
+    both[e].guides.label = Grid<std::uint8_t>(160, 160, 3);
+    for (int y = 0; y < 160; ++y)
+      for (int x = 0; x < 160; ++x)
+        both[e].picture(x, y) = grey(60 + static_cast<int>(random_index(130, 5 + e, x / 4, y)));
+  }
+  both[0].guides.guides = {{"altitude", altitude_ramp(160, 160, 127)}};
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(128, 128, 3);
+  target.guides = {{"altitude", altitude_ramp(128, 128, 255)}};
+  const Grid<std::uint8_t>& source = both[0].guides.guides[0].values;
+  const Grid<std::uint8_t>& asked = target.guides[0].values;
+  // Of pixels that ask for low … high: the share of the exemplar without altitude, and the
+  // correlation of altitudes over the others.
+  const auto look = [&](const MatchField& field, int low, int high) {
+    std::vector<double> requested, offered;
+    double count = 0.0;
+    for (std::size_t i = 0; i < field.size(); ++i) {
+      if (asked[i] < low || asked[i] > high) continue;
+      count += 1.0;
+      if (field[i].exemplar != 0) continue;
+      requested.push_back(asked[i]);
+      offered.push_back(source(field[i].x, field[i].y));
+    }
+    return std::pair{1.0 - static_cast<double>(requested.size()) / count,
+                     correlation(requested, offered)};
+  };
+  for (const double weight : {1.0, 0.04}) {
+    SynthesisParameters parameters;
+    parameters.weights = {{"altitude", weight}};
+    SynthesisNotes notes;
+    const MatchField field = synthesize(both, target, parameters, notes);
+    ASSERT_EQ(notes.notes.size(), 1U);
+    EXPECT_NE(notes.notes[0].find("altitude"), std::string::npos);
+    const double alone = look(run({both[0]}, target, parameters), 0, 120).second;
+    const auto [share, together] = look(field, 0, 120);
+    EXPECT_GT(alone, 0.9);
+    EXPECT_GT(together, 0.98 * alone) << weight;
+    EXPECT_LT(share, 0.9);
+    EXPECT_GT(share, weight < 1.0 ? 0.02 : -1.0) << "where its paint fits better";
+    EXPECT_GT(look(field, 220, 255).first, 0.5) << "the complete one has none of these altitudes";
+  }
+}
+
+// The price of a lacked guide: values 10 and 30 in equal numbers have variance 100, so two random
+// ones differ by 200 in the mean square, at 270 each.
+TEST(SynthesizeGuides, ALackedGuideCostsARandomDifference) {
+  std::vector<Exemplar> both(2);
+  for (Exemplar& exemplar : both) {
+    exemplar.name = "half";
+    exemplar.picture = Grid<Rgb8>(20, 20);
+    exemplar.guides.label = Grid<std::uint8_t>(20, 20, 3);
+  }
+  both[0].guides.guides = {{"altitude", Grid<std::uint8_t>(20, 20, 10)}};
+  for (int i = 0; i < 200; ++i)
+    both[0].guides.guides[0].values[static_cast<std::size_t>(2 * i)] = 30;
+  both[1].guides.label(0, 0) = 5;  // a class of its own: the price of all classes
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(20, 20, 3);
+  target.guides = {{"altitude", Grid<std::uint8_t>(20, 20, 20)}};
+  const synth::Setup setup = synth::make_setup(both, target, {}, 1, silent_progress());
+  const synth::Plane plane = synth::halve(synth::exemplar_plane(both, setup));
+  ASSERT_EQ(plane.lacking_price.size(), 512U);
+  EXPECT_EQ(plane.lacking_price[0], 0);
+  EXPECT_EQ(plane.lacking_price[256], 270 * 200);
+  EXPECT_EQ(plane.lacking_price[257], 270 * 200);
+  EXPECT_TRUE(plane.knows(0, 0));
+  EXPECT_FALSE(plane.knows(1, 0));
+  EXPECT_TRUE(synth::exemplar_plane({both[0]}, setup).known.empty());
 }
 
 // The direction of strokes at a position, 0 … π, from the structure of grey around it, and its

@@ -146,7 +146,8 @@ TEST(Synthesize, GuidesOfOneSideAreNotedOnce) {
   GuideStack target = land(40, 40, 40);
   exemplars[0].guides.guides.push_back({"slope", Grid<std::uint8_t>(60, 60)});
   exemplars[1].guides.guides.push_back({"slope", Grid<std::uint8_t>(60, 60)});
-  exemplars[1].guides.guides.erase(exemplars[1].guides.guides.begin() + 1);  // tone
+  for (Exemplar& exemplar : exemplars)
+    exemplar.guides.guides.erase(exemplar.guides.guides.begin() + 1);  // tone
   SynthesisParameters parameters;
   parameters.weights = {{"typo", 2.0}};
   SynthesisNotes notes;
