@@ -310,10 +310,12 @@ struct SceneSynthesis {
       default_guide_weights();  // by guide (renderer/paint/guides.h)
   std::vector<std::pair<LandCoverClass, LandCoverClass>> fallback;
   std::vector<std::pair<std::string, double>>
-      class_dissimilarity;  // by two names of classes, "forest/shrub"
+      class_dissimilarity;              // by two names of classes, "forest/shrub"
+  std::optional<double> neighbourhood;  // px, odd, 3…11; absent: by the length of strokes
   double plan_mpx = 4.0;  // Mpx, 0.001…64: texels are chosen for the whole sheet on a picture of it
                           // of at most that size
-  SynthesisParameters search;  // without seed, weights, fallback and class dissimilarity
+  SynthesisParameters search;  // without seed, weights, fallback, class dissimilarity and
+                               // neighbourhood
 };
 
 // Features of one vector file, drawn by the table of kinds (renderer/features/feature_style.h).

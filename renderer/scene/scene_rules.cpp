@@ -38,8 +38,8 @@ class Rules {
             fmt::format(
                 "synthesis.class_dissimilarity names \"{}\", which is not a pair of classes", pair),
             "two classes separated by a slash, such as \"forest/shrub\" = 0.3");
-    const int side = scene_.synthesis.search.neighbourhood;
-    if (side % 2 == 0)
+    const double side = scene_.synthesis.neighbourhood.value_or(7.0);
+    if (std::fmod(side, 2.0) != 1.0)
       refuse("synthesis.neighbourhood",
              fmt::format("synthesis.neighbourhood is {}, which is not an odd side length", side),
              "3, 5, 7, 9 or 11");

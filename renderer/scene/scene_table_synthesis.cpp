@@ -106,12 +106,20 @@ std::vector<SceneSection> make_synthesis_sections() {
             .field = AT(synthesis.search.reuse),
             .range = {0, 10},
             .meaning = "Strength of the penalty on repetition."},
+           {.name = "distance",
+            .field = AT(synthesis.search.distance),
+            .meaning = "How two patches are compared: ssd sums squared differences of colour; "
+                       "normalized leaves out the difference of their mean lightness, for "
+                       "paintings whose light is uneven within a class.",
+            .text = TextKind::choice,
+            .choices = {"ssd", "normalized"}},
            {.name = "neighbourhood",
-            .field = AT(synthesis.search.neighbourhood),
+            .field = AT(synthesis.neighbourhood),
             .range = {3, 11},
             .unit = "px",
             .meaning = "Side of the patches that are compared, odd: 3 … 11. About the size of the "
-                       "painting's elements; larger keeps longer strokes and takes longer."},
+                       "painting's elements; larger keeps longer strokes and takes longer.",
+            .derived = "5, 7 or 9, by the length of the paintings' strokes; 7 without paintings"},
            {.name = "surroundings",
             .field = AT(synthesis.search.surroundings),
             .range = {0, 100},

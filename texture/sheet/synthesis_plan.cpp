@@ -152,7 +152,7 @@ SynthesisPlan plan_synthesis(const std::vector<Exemplar>& exemplars, const Guide
 
 namespace {
 
-constexpr std::string_view magic = "belvedere synthesis plan 3\n";
+constexpr std::string_view magic = "belvedere synthesis plan 4\n";
 
 struct PackedGuide {
   std::string name;
@@ -166,6 +166,7 @@ struct PackedPlan {
   std::uint64_t seed = 0;
   int neighbourhood = 0;
   std::uint8_t all_surroundings = 0;
+  std::uint8_t normalized = 0;
   int copy_cap = 0;
   double reuse = 0.0;
   std::vector<PackedGuide> guides;
@@ -182,10 +183,10 @@ void each_field(auto& bytes, FieldsOf<PackedGuide> auto& guide) {
 }
 
 void each_field(auto& bytes, FieldsOf<PackedPlan> auto& plan) {
-  auto& [title, digest, sheet, seed, neighbourhood, all_surroundings, copy_cap, reuse, guides,
-         classes, around_weight_q8, around_pairs, matches, demand, usual_errors] = plan;
-  bytes(title, digest, sheet, seed, neighbourhood, all_surroundings, copy_cap, reuse, guides,
-        classes, around_weight_q8, around_pairs, matches, demand, usual_errors);
+  auto& [title, digest, sheet, seed, neighbourhood, all_surroundings, normalized, copy_cap, reuse,
+         guides, classes, around_weight_q8, around_pairs, matches, demand, usual_errors] = plan;
+  bytes(title, digest, sheet, seed, neighbourhood, all_surroundings, normalized, copy_cap, reuse,
+        guides, classes, around_weight_q8, around_pairs, matches, demand, usual_errors);
 }
 
 [[noreturn]] void refuse(const std::string& found) {
@@ -219,6 +220,7 @@ std::vector<std::uint8_t> pack_plan(const SynthesisPlan& plan) {
                     .seed = parameters.seed,
                     .neighbourhood = parameters.neighbourhood,
                     .all_surroundings = parameters.surroundings_of == "all",
+                    .normalized = parameters.distance == "normalized",
                     .copy_cap = parameters.copy_cap,
                     .reuse = parameters.reuse,
                     .guides = {},
@@ -265,6 +267,7 @@ SynthesisPlan unpack_plan(const std::vector<std::uint8_t>& bytes,
       parameters.patch_radius() > synth::largest_patch_radius)
     refuse("a neighbourhood out of range");
   if (packed.all_surroundings != 0) parameters.surroundings_of = "all";
+  if (packed.normalized != 0) parameters.distance = "normalized";
   if (packed.copy_cap < 0) refuse("a number out of range");
   parameters.copy_cap = packed.copy_cap;
   parameters.reuse = packed.reuse;

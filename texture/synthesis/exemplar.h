@@ -76,7 +76,10 @@ struct SynthesisParameters {
       fallback;           // class → class to copy from if no exemplar has any texel of it
   int neighbourhood = 7;  // side of the patches that are compared, pixels: 3, 5, 7, 9 or 11; about
                           // the size of the painting's elements
-  double reuse = 1.0;     // strength of the reuse penalty, 0…10
+  std::string distance = "ssd";  // of two patches: "ssd", the weighted sum of squared differences
+                                 // of R, G and B, or "normalized", the same without the mean
+                                 // difference of the patches' lightness
+  double reuse = 1.0;            // strength of the reuse penalty, 0…10
   int copy_cap = 240;  // max size of a copied piece, texels at level 0; 16…100000; never exceeded
   // Weight of the classes around a pixel (squared differences of class counts over 17 × 17 pixels),
   // 0…100.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "base/error.h"
 #include "base/memory/zeroed_memory.h"
@@ -22,56 +23,29 @@ std::vector<const Grid<std::uint8_t>*> guides_of(const GuideStack& stack, const 
   return guides;
 }
 
-// Count, sum and sum of squares of a guide's values, exact.
-struct GuideSums {
-  std::int64_t count = 0, sum = 0, squares = 0;
-  void add(const GuideSums& other) {
-    count += other.count;
-    sum += other.sum;
-    squares += other.squares;
-  }
-  // Mean squared difference of two random values, 2 × variance, in 256ths.
-  std::int64_t random_difference_q8() const {
-    if (count == 0) return 0;
-    const std::int64_t mean_q8 = 256 * sum / count;
-    return std::max<std::int64_t>(0, 2 * (256 * squares / count - mean_q8 * mean_q8 / 256));
-  }
-};
-
-// A guide that an exemplar lacks costs what two random texels of the class differ in it, in the
-// exemplars that know it (in all classes together where none of these has the class).
-void price_lacking_guides(const std::vector<Exemplar>& exemplars, const Setup& setup,
-                          Plane& plane) {
-  const std::size_t guides = setup.guide_names.size();
-  std::vector<std::vector<const Grid<std::uint8_t>*>> values;
-  std::vector<std::uint8_t> known(exemplars.size() * guides + vector_guides, 255);
-  for (std::size_t e = 0; e < exemplars.size(); ++e) {
-    values.push_back(guides_of(exemplars[e].guides, setup));
-    for (std::size_t g = 0; g < guides; ++g)
-      if (values[e][g] == nullptr) known[e * guides + g] = 0;
-  }
-  if (std::find(known.begin(), known.end(), 0) == known.end()) return;
-  plane.known = std::move(known);
-  plane.lacking_price.assign(exemplars.size() * 256, 0);
-  for (std::size_t g = 0; g < guides; ++g) {
-    std::array<GuideSums, 256> by_class{};
-    GuideSums all;
-    for (std::size_t e = 0; e < exemplars.size(); ++e) {
-      if (values[e][g] == nullptr) continue;
-      for (std::size_t i = 0; i < values[e][g]->size(); ++i) {
-        const std::int64_t v = (*values[e][g])[i];
-        by_class[setup.classes.of_exemplar[exemplars[e].guides.label[i]]].add({1, v, v * v});
+// A guide that an exemplar lacks costs what two random texels of the class differ in it, twice its
+// variance, in the exemplars that know it (in all classes together where none of these has the
+// class).
+void price_lacking_guides(const std::vector<GuideRole>& roles, Plane& plane) {
+  plane.lacking_price.assign(plane.parts.size() * 256, 0);
+  for (std::size_t g = 0; g < roles.size(); ++g) {
+    constexpr std::size_t all = no_class;
+    std::array<std::array<std::int64_t, 3>, 256> sums{};  // by class: count, sum, sum of squares
+    plane.for_each([&](std::uint32_t at) {
+      const std::size_t c = class_of(plane.words[at]);
+      if (c == no_class || !plane.knows(plane.part_of(at), g)) return;
+      const std::int64_t v = plane.guides_at(at)[g];
+      for (const std::size_t of : {c, all})
+        sums[of] = {sums[of][0] + 1, sums[of][1] + v, sums[of][2] + v * v};
+    });
+    for (std::size_t p = 0; p < plane.parts.size(); ++p)
+      for (std::size_t c = 0; c < all && !plane.knows(static_cast<int>(p), g); ++c) {
+        const auto& [count, sum, squares] = sums[sums[c][0] > 0 ? c : all];
+        if (count == 0) continue;
+        const std::int64_t mean_q8 = 256 * sum / count;
+        const std::int64_t difference_q8 = 2 * (256 * squares / count - mean_q8 * mean_q8 / 256);
+        plane.lacking_price[p * 256 + c] += (roles[g].weight_q4 * difference_q8) >> 12;
       }
-    }
-    for (std::size_t c = 0; c < no_class; ++c) all.add(by_class[c]);
-    for (std::size_t e = 0; e < exemplars.size(); ++e) {
-      if (values[e][g] != nullptr) continue;
-      for (std::size_t c = 0; c < no_class; ++c)
-        plane.lacking_price[e * 256 + c] +=
-            (setup.roles[g].weight_q4 *
-             (by_class[c].count > 0 ? by_class[c] : all).random_difference_q8()) >>
-            12;
-    }
   }
 }
 
@@ -84,9 +58,12 @@ Plane exemplar_plane(const std::vector<Exemplar>& exemplars, const Setup& setup)
     sizes.emplace_back(exemplar.picture.width(), exemplar.picture.height());
   Plane plane = make_plane(sizes, static_cast<int>(setup.roles.size()),
                            padding_for(setup.parameters.patch_radius()));
+  std::vector<std::uint8_t> known(exemplars.size() * setup.roles.size() + vector_guides, 255);
   for (std::size_t e = 0; e < exemplars.size(); ++e) {
     const Exemplar& exemplar = exemplars[e];
     const std::vector<const Grid<std::uint8_t>*> guides = guides_of(exemplar.guides, setup);
+    for (std::size_t g = 0; g < guides.size(); ++g)
+      if (guides[g] == nullptr) known[e * guides.size() + g] = 0;
     parallel_rows(exemplar.picture.height(), [&](int y) {
       for (int x = 0; x < exemplar.picture.width(); ++x) {
         const std::uint32_t at = plane.index(static_cast<int>(e), x, y);
@@ -99,7 +76,10 @@ Plane exemplar_plane(const std::vector<Exemplar>& exemplars, const Setup& setup)
       }
     });
   }
-  price_lacking_guides(exemplars, setup, plane);
+  if (std::find(known.begin(), known.end(), 0) != known.end()) {
+    plane.known = std::move(known);
+    price_lacking_guides(setup.roles, plane);
+  }
   bool any_cuts = false;
   for (std::size_t e = 0; e < exemplars.size(); ++e)
     if (!exemplars[e].guides.depth_m.empty())

@@ -72,6 +72,7 @@ template <int radius>
 struct Patch {
   alignas(64) std::uint32_t colour[patch_words<radius>];
   alignas(64) std::uint32_t mask[patch_words<radius>];
+  std::int64_t weights = 0;  // 3 × those of the pixels that count; 0: the plain distance
 };
 
 template <int radius>
@@ -90,12 +91,39 @@ HWY_INLINE void LoadPatch(const KernelView& view, std::uint32_t pixel, Patch<rad
   }
   if (view.links != nullptr && (view.links[pixel] & link::cut_patch)) {
     const SurfaceRows rows = surface_around(view, pixel);
-    for (std::size_t j = 0; j < side; ++j) {
-      for (std::size_t i = 0; i < side; ++i) {
+    for (std::size_t j = 0; j < side; ++j)
+      for (std::size_t i = 0; i < side; ++i)
         if (!(rows[j] >> i & 1)) patch.mask[j * row_words<radius> + i] = 0;
-      }
-    }
   }
+  for (std::size_t at = 0; view.normalized && at < patch_words<radius>; ++at)
+    if (patch.mask[at] != 0) patch.weights += 3 * (weight_table<radius>.red_blue[at] & 0xffffU);
+}
+
+// Weighted sum of the signed differences of R, G and B.
+template <int radius>
+HWY_INLINE std::int64_t SignedSum(const Patch<radius>& patch, const std::uint32_t* texel,
+                                  std::ptrdiff_t stride) {
+  const Words d;
+  const Shorts d16;
+  auto sum0 = hn::Zero(Sums());
+  auto sum1 = sum0;
+  for (std::size_t at = 0; at < patch_words<radius>; at += hn::Lanes(d)) {
+    const std::ptrdiff_t y = static_cast<std::ptrdiff_t>(at / row_words<radius>) - radius;
+    const auto mask = hn::Load(d, patch.mask + at);
+    const auto a =
+        hn::And(hn::LoadU(d, texel + y * stride - radius + at % row_words<radius>), mask);
+    const auto b = hn::And(hn::Load(d, patch.colour + at), mask);
+    const auto pairs = hn::Set(d, 0x00ff00ffU);
+    const auto red_blue =
+        hn::Sub(hn::BitCast(d16, hn::And(a, pairs)), hn::BitCast(d16, hn::And(b, pairs)));
+    const auto single = hn::Set(d, 0xff00U);
+    const auto green = hn::Sub(hn::BitCast(d16, hn::ShiftRight<8>(hn::And(a, single))),
+                               hn::BitCast(d16, hn::ShiftRight<8>(hn::And(b, single))));
+    const auto w = hn::BitCast(d16, hn::Load(d, weight_table<radius>.red_blue + at));
+    sum0 = hn::ReorderWidenMulAccumulate(Sums(), red_blue, w, sum0, sum1);
+    sum0 = hn::ReorderWidenMulAccumulate(Sums(), green, w, sum0, sum1);
+  }
+  return hn::GetLane(hn::SumOfLanes(Sums(), hn::Add(sum0, sum1)));
 }
 
 // Adds one row's weighted squared differences of R, G, B and its class mismatches.
@@ -128,7 +156,7 @@ HWY_INLINE void AddRow(const Patch<radius>& patch, std::size_t j, const std::uin
 }
 
 // Patch distance plus class mismatches, in price units; above `limit` only a partial sum may be
-// returned.
+// returned. Normalized: Σ w (d - mean)² = Σ w d² - (Σ w d)² / Σ w.
 template <int radius>
 HWY_INLINE std::int64_t PatchCost(const Patch<radius>& patch, const std::uint32_t* texel,
                                   std::ptrdiff_t stride, std::int64_t limit) {
@@ -144,13 +172,18 @@ HWY_INLINE std::int64_t PatchCost(const Patch<radius>& patch, const std::uint32_
   if constexpr (radius > 1) {
     const std::int64_t part =
         to_price<radius>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1))));
-    if (part > limit) return part;
+    if (part > limit && patch.weights == 0) return part;
     for (std::size_t j = 2; j <= centre; ++j) {
       AddRow<radius>(patch, centre - j, row - static_cast<std::ptrdiff_t>(j) * stride, sum0, sum1);
       AddRow<radius>(patch, centre + j, row + static_cast<std::ptrdiff_t>(j) * stride, sum0, sum1);
     }
   }
-  return to_price<radius>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1))));
+  std::int64_t sum = hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1)));
+  if (patch.weights != 0) {
+    const std::int64_t offset = SignedSum<radius>(patch, texel, stride);
+    sum -= offset * offset / patch.weights;
+  }
+  return to_price<radius>(sum);
 }
 
 // The search for one pixel: candidates are offered one by one, the cheapest is kept; ties go to the
@@ -224,9 +257,8 @@ struct Search {
   HWY_INLINE void Offer(std::uint32_t texel, std::int64_t join) {
     const std::uint32_t* word = view->exemplars->words.data() + texel;
     if (class_of(*word) != label_class) return;
-    for (int i = 0; i < seen_count; ++i) {
+    for (int i = 0; i < seen_count; ++i)
       if (seen[i] == texel) return;
-    }
     seen[seen_count++] = texel;
     if (forbidden.count > 0 && forbidden.has(texel)) return;
     const TexelRecords::Record record = view->texels->at(texel);
@@ -277,8 +309,7 @@ void ImproveRowOf(const KernelView& view, int x0, int x1, int y, std::uint32_t* 
       run = begin_draw(view, pixel, view.key, x, y);
       if (run.count == 0) continue;
       hwy::Prefetch(view.lists->entry(run.entry(0)).words);
-      if (draws > 1)
-        hwy::Prefetch(view.lists->entry(run.entry(std::min(run.count, draws) - 1)).words);
+      hwy::Prefetch(view.lists->entry(run.entry(std::min(run.count, draws) - 1)).words);
     }
     for (int x = first, i = 0; x < last; x += 2, ++i, ++drawn) {
       const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
@@ -457,9 +488,8 @@ std::vector<std::string> vector_targets() {
 void use_vector_target(const std::string& name) {
   hwy::SetSupportedTargetsForTest(0);
   std::int64_t chosen = 0;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
     if (name == hwy::TargetName(target)) chosen = target;
-  }
   if (!name.empty() && chosen == 0)
     throw Error(ErrorKind::limit, "vector instructions", name, "one that this processor has");
   hwy::SetSupportedTargetsForTest(chosen);

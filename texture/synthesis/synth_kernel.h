@@ -110,6 +110,7 @@ struct KernelView {
   int pass = 0;
   int radius = patch_radius;  // of neighbourhoods, 1 … largest_patch_radius; determines the padding
                               // of planes
+  bool normalized = false;  // the mean difference of two patches' lightness costs nothing
 
   bool is_fixed(std::uint32_t pixel) const {
     return fixed != nullptr && fixed[pixel] != exemplars->nowhere();

@@ -39,6 +39,8 @@ void check_parameters(const SynthesisParameters& parameters) {
       parameters.neighbourhood > 2 * largest_patch_radius + 1)
     throw Error(ErrorKind::usage, "synthesis neighbourhood",
                 fmt::format("{}", parameters.neighbourhood), "3, 5, 7, 9 or 11 pixels");
+  if (parameters.distance != "ssd" && parameters.distance != "normalized")
+    throw Error(ErrorKind::usage, "synthesis distance", parameters.distance, "ssd or normalized");
   if (parameters.surroundings_of != "commonest" && parameters.surroundings_of != "all")
     throw Error(ErrorKind::usage, "synthesis surroundings_of", parameters.surroundings_of,
                 "commonest or all");
@@ -88,10 +90,9 @@ std::vector<PairedGuide> pair_guides(const std::vector<Exemplar>& exemplars,
     }
     if (pair.role.weight_q4 == 0) continue;
     if (static_cast<std::size_t>(knowing) < exemplars.size())
-      progress.note(
-          fmt::format("guide \"{}\": {} of {} exemplars lack it and are chosen without it",
-                      guide.name, exemplars.size() - static_cast<std::size_t>(knowing),
-                      exemplars.size()));
+      progress.note(fmt::format(
+          "guide \"{}\": {} of {} exemplars lack it and are chosen without it", guide.name,
+          exemplars.size() - static_cast<std::size_t>(knowing), exemplars.size()));
     paired.push_back(std::move(pair));
   }
   for (const Exemplar& exemplar : exemplars) {
@@ -198,6 +199,7 @@ LevelSettings Setup::settings(int level) const {
       settings_for_level(level, parameters.seed, parameters.copy_cap, parameters.reuse);
   settings.tile = parameters.tile;
   settings.patch_radius = parameters.patch_radius();
+  settings.normalized = parameters.distance == "normalized";
   settings.all_surroundings = parameters.surroundings_of == "all";
   // Guides that do not order the lists are met by drawing several texels and keeping the best one.
   const ListKeys keys = choose_list_keys(roles);

@@ -216,6 +216,7 @@ KernelView LevelState::view(int pass) const {
   view.key = key_for(settings, Purpose::pass, pass);
   view.pass = pass;
   view.radius = settings.patch_radius;
+  view.normalized = settings.normalized;
   return view;
 }
 

@@ -28,6 +28,7 @@ struct LevelSettings {
   int min_window = 16;    // texels that a pick's window must contain
   int surroundings_radius = 8;
   int patch_radius = synth::patch_radius;
+  bool normalized = false;        // the mean difference of two patches' lightness costs nothing
   bool all_surroundings = false;  // all classes around count, not only the most common other one
   int tile = 0;  // side of the tiles that sub-passes work in, even; 0: whole rows. Does not change
                  // the result

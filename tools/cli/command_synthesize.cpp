@@ -69,6 +69,8 @@ FileNotes make_notes(const SynthesizeOptions& options) {
   for (const auto& [a, b, value] : options.class_dissimilarity)
     around += fmt::format(" {}/{} {}", a, b, value);
   if (around != SynthesisParameters().surroundings_of) notes["belvedere:surroundings"] = around;
+  if (options.parameters.distance != "ssd")
+    notes["belvedere:patch_distance"] = options.parameters.distance;
   for (const GuidePair& guide : options.files.guides)
     weights += fmt::format(" {} {}", guide.name, guide.weight);
   notes["belvedere:synthesis"] = fmt::format(
@@ -105,6 +107,7 @@ std::string describe_command(const SynthesizeOptions& options) {
     out += fmt::format(" --harmonize {}", options.files.harmonize);
   for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
   const SynthesisParameters& p = options.parameters;
+  if (p.distance != "ssd") out += " --patch-distance " + p.distance;
   if (p.surroundings_of != "commonest") out += " --surroundings-of " + p.surroundings_of;
   for (const auto& [a, b, value] : options.class_dissimilarity)
     out += fmt::format(" --class-dissimilarity {} {} {}", a, b, value);
@@ -348,6 +351,14 @@ Action add_synthesize(CommandOptions& command) {
       .type_name("N")
       .show_default()
       .one_of({3, 5, 7, 9, 11});
+  command
+      .add_option(
+          "--patch-distance", parameters.distance,
+          "How patches are compared: squared differences of colour, or the same without the "
+          "difference of their mean lightness")
+      .type_name("WHICH")
+      .show_default()
+      .one_of({"ssd", "normalized"});
   command
       .add_option("--surroundings", parameters.surroundings, "Weight of the classes around a pixel")
       .type_name("X")

@@ -153,6 +153,60 @@ TEST_P(EachVectorWidth, BlackAgainstWhiteDoesNotOverflow) {
             (weights * 3 * 255 * 255 >> 3) + 49 * 3000);
 }
 
+// The normalized distance in plain arithmetic: the mean of all differences of colour is left out,
+// so a patch costs nothing against itself and against itself in other light.
+TEST_P(EachVectorWidth, NormalizedDistanceLeavesOutTheMean) {
+  const Plane exemplars = noise_plane({{23, 17}}, 0, 5, false);
+  Plane target = noise_plane({{19, 21}}, 0, 50, true);
+  KernelView view;
+  view.target = &target;
+  view.exemplars = &exemplars;
+  view.normalized = true;
+  const std::uint32_t texel = exemplars.index(0, 9, 8);
+  for (const auto& [x, y] : {std::pair{9, 9}, {0, 0}, {18, 3}}) {
+    std::int64_t squares = 0, sum = 0, weights = 0, mismatches = 0;
+    for (int dy = -3; dy <= 3; ++dy)
+      for (int dx = -3; dx <= 3; ++dx) {
+        const std::uint32_t b =
+            target
+                .words[target.index(0, x, y) + static_cast<std::uint32_t>(dy * target.stride + dx)];
+        const std::uint32_t a =
+            exemplars.words[texel + static_cast<std::uint32_t>(dy * exemplars.stride + dx)];
+        if (class_of(b) == no_class) continue;
+        const std::int64_t w = std::lround(16.0 * std::exp(-(dx * dx + dy * dy) / 8.0));
+        for (int c = 0; c < 24; c += 8) {
+          const std::int64_t d =
+              static_cast<std::int64_t>(a >> c & 255U) - static_cast<std::int64_t>(b >> c & 255U);
+          squares += w * d * d;
+          sum += w * d;
+          weights += w;
+        }
+        mismatches += class_of(a) != class_of(b) ? 1 : 0;
+      }
+    ASSERT_GT(weights, 0);
+    EXPECT_EQ(patch_cost(view, target.index(0, x, y), texel),
+              (squares + mismatches * 8 * 3000 - sum * sum / weights) >> 3);
+  }
+  // The same patch, and the same 40 levels lighter: noise of 0 … 127.
+  Plane dark = noise_plane({{23, 17}}, 0, 5, false);
+  for (std::uint32_t& word : dark.words) word &= 0xff7f7f7fU;
+  Plane light = dark;
+  for (std::uint32_t& word : light.words) word += 0x00282828U;
+  view.exemplars = &dark;
+  for (const int radius : {1, 2, 3}) {
+    view.radius = radius;
+    view.target = &dark;
+    EXPECT_EQ(patch_cost(view, texel, texel), 0);
+    view.target = &light;
+    EXPECT_EQ(patch_cost(view, texel, texel), 0);
+    view.normalized = false;
+    EXPECT_GT(patch_cost(view, texel, texel), 0);
+    view.target = &dark;
+    EXPECT_EQ(patch_cost(view, texel, texel), 0);
+    view.normalized = true;
+  }
+}
+
 // The formula of the guides' price, and which method computes it. `weights` in sixteenths.
 void expect_guide_prices(const std::vector<std::int64_t>& weights, bool at_once) {
   const int count = static_cast<int>(weights.size());
@@ -274,9 +328,7 @@ TEST_P(EachVectorWidth, LackedGuidesCostTheirPrice) {
       std::int64_t sum = 0;
       for (int g = 0; g < count; ++g) {
         if (second && (g == 0 || g == count - 1)) continue;
-        const std::int64_t free = g == 0   ? slack.sorted
-                                  : g == 1 ? slack.bucketed
-                                           : slack.others[g];
+        const std::int64_t free = g == 0 ? slack.sorted : g == 1 ? slack.bucketed : slack.others[g];
         const std::int64_t off = std::max<std::int64_t>(
             0, std::abs(target.guides_at(pixel)[g] - exemplars.guides_at(texel)[g]) - free);
         sum += 64 * off * off;
