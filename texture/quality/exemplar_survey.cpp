@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/error.h"
@@ -120,6 +121,121 @@ ExemplarSurvey survey_exemplar(const Exemplar& exemplar) {
     survey.classes.push_back(std::move(of));
   }
   return survey;
+}
+
+namespace {
+
+// Mean R, G, B; mean step of R + G + B to the right and down; the guide.
+using Features = std::array<double, 6>;
+
+struct Block {
+  const GuideStack* guides = nullptr;
+  int x = 0;  // its first texel
+  int y = 0;
+  Features features{};
+};
+constexpr int block_side = 8;
+
+// The blocks of one class.
+void add_blocks(const Exemplar& exemplar, std::vector<Block>& blocks) {
+  const Grid<std::uint8_t>& labels = exemplar.guides.label;
+  for (int y = 0; y + block_side <= labels.height(); y += block_side)
+    for (int x = 0; x + block_side <= labels.width(); x += block_side) {
+      Block block{&exemplar.guides, x, y, {}};
+      bool pure = labels(x, y) != unused_label;
+      for (int j = 0; j < block_side && pure; ++j)
+        for (int i = 0; i < block_side; ++i) {
+          pure = pure && labels(x + i, y + j) == labels(x, y);
+          const Rgb8& here = exemplar.picture(x + i, y + j);
+          for (std::size_t c = 0; c < 3; ++c) block.features[c] += here[c];
+          const auto step = [&](int dx, int dy) {
+            return std::abs(quality::sum_of(exemplar.picture.clamped(x + i + dx, y + j + dy)) -
+                            quality::sum_of(here));
+          };
+          block.features[3] += step(1, 0);
+          block.features[4] += step(0, 1);
+        }
+      if (pure) blocks.push_back(block);
+    }
+}
+
+// Sums by group, and the variation within groups.
+struct Variation {
+  struct Group {
+    double count = 0.0;
+    Features sum{}, squares{};
+  };
+  std::map<int, Group> groups;
+  void add(int group, const Features& features) {
+    Group& g = groups[group];
+    g.count += 1.0;
+    for (std::size_t f = 0; f < features.size(); ++f) {
+      g.sum[f] += features[f];
+      g.squares[f] += features[f] * features[f];
+    }
+  }
+  // Unbiased variance of the features from … to - 1 around the means of their groups.
+  double within(double count, std::size_t from, std::size_t to) const {
+    double rest = 0.0;
+    for (const auto& [label, g] : groups)
+      for (std::size_t f = from; f < to; ++f) rest += g.squares[f] - g.sum[f] * g.sum[f] / g.count;
+    return rest / std::max(1.0, count - static_cast<double>(groups.size()));
+  }
+};
+
+}  // namespace
+
+std::vector<GuideShare> explain_paint(const std::vector<Exemplar>& exemplars) {
+  std::vector<Block> blocks;
+  std::vector<GuideShare> shares;
+  for (const Exemplar& exemplar : exemplars) {
+    add_blocks(exemplar, blocks);
+    for (const Guide& guide : exemplar.guides.guides)
+      if (std::none_of(shares.begin(), shares.end(),
+                       [&](const GuideShare& share) { return share.name == guide.name; }))
+        shares.push_back({.name = guide.name});
+  }
+  for (GuideShare& share : shares) {
+    Variation classes, values;  // by class, and by class and value
+    double count = 0.0;
+    for (Block& block : blocks) {
+      const Grid<std::uint8_t>* guide = block.guides->find(share.name);
+      if (guide == nullptr) continue;
+      const int value = (*guide)(block.x + block_side / 2, block.y + block_side / 2);
+      const int label = block.guides->label(block.x, block.y);
+      block.features[5] = value;
+      classes.add(label, block.features);
+      values.add(label * 16 + value / 16, block.features);
+      count += 1.0;
+    }
+    share.difference = 2.0 * classes.within(count, 5, 6);
+    if (count <= static_cast<double>(values.groups.size())) continue;
+    for (const auto& [from, to] : {std::pair<std::size_t, std::size_t>{0, 3}, {3, 5}})
+      if (const double all = classes.within(count, from, to); all > 0.0)
+        share.explained = std::max(share.explained, 1.0 - values.within(count, from, to) / all);
+  }
+  return shares;
+}
+
+double mean_stroke_px(const std::vector<Exemplar>& exemplars) {
+  double sum = 0.0;
+  double texels = 0.0;
+  for (const Exemplar& exemplar : exemplars) {
+    const Grid<std::uint8_t>& labels = exemplar.guides.label;
+    const Grid<std::uint8_t> borders = border_distance_squared(labels);
+    std::array<double, 256> counts{};
+    for (const std::uint8_t label : labels) counts[label] += 1.0;
+    for (std::size_t l = 0; l < unused_label; ++l) {
+      if (counts[l] == 0.0) continue;
+      const auto label = static_cast<std::uint8_t>(l);
+      const double run = stroke_run(exemplar.picture, labels, borders, label,
+                                    stroke_tolerance(exemplar.picture, labels, label));
+      if (std::isnan(run)) continue;
+      sum += counts[l] * run;
+      texels += counts[l];
+    }
+  }
+  return texels > 0.0 ? sum / texels : 0.0;
 }
 
 double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& target,

@@ -55,6 +55,19 @@ struct ExemplarSurvey {
 // Throws as check_exemplar.
 ExemplarSurvey survey_exemplar(const Exemplar& exemplar);
 
+// How far a guide explains the paint of its class, in the exemplars that know it.
+struct GuideShare {
+  std::string name;
+  double explained = 0.0;   // share of the variance within classes, of squares of 8 × 8 texels: of
+                            // their colour or their contrast, whichever is larger; 0 by chance
+  double difference = 0.0;  // mean squared difference of two random texels of a class, steps²
+};
+// Of every guide, in the order in which exemplars name them.
+std::vector<GuideShare> explain_paint(const std::vector<Exemplar>& exemplars);
+
+// Mean length of strokes (stroke_run) over all classes of the exemplars, texels; 0: not known.
+double mean_stroke_px(const std::vector<Exemplar>& exemplars);
+
 // Share of the target's pixels of a class for which some texel of it has that guide within `reach`
 // steps; 1 if the target has no such pixel. Error(usage) if the target or an exemplar lacks the
 // guide.

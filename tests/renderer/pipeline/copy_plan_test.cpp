@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
+#include "base/random.h"
+#include "renderer/exemplar/example_sheet.h"
 #include "tests/files.h"
 #include "tests/scenes.h"
 
@@ -57,6 +59,60 @@ TEST(CopyPlan, PatchesAndSurroundingsAreTheScenes) {
                             "synthesis.class_dissimilarity={ \"forest/forest\" = 0.25 }",
                             "synthesis.class_dissimilarity={ \"forest/shrub\" = 1.5 }"})
     EXPECT_FALSE(test::usage_error([&] { test::small_scene({wrong}); }).empty()) << wrong;
+}
+
+// A painting in two halves, the right one lighter, with bars 12 pixels long; guides as named follow
+// the halves, by 50 steps.
+Exemplar halves(const std::vector<std::string>& guides) {
+  Exemplar exemplar{.name = "painting.png", .picture = Grid<Rgb8>(160, 120), .guides = {}};
+  exemplar.guides.label = Grid<std::uint8_t>(160, 120, 8);
+  Guide half{"", Grid<std::uint8_t>(160, 120)};
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) {
+      half.values(x, y) = x < 80 ? 100 : 150;
+      exemplar.picture(x, y).fill(static_cast<std::uint8_t>(
+          (x < 80 ? 50 : 120) + (random_index(2, 8, (x + 5 * y) / 12, y) == 0 ? 0 : 60)));
+    }
+  for (const std::string& name : guides) {
+    half.name = name;
+    exemplar.guides.guides.push_back(half);
+  }
+  return exemplar;
+}
+
+double weight_of(const SynthesisParameters& parameters, const std::string& name) {
+  for (const auto& [guide, weight] : parameters.weights)
+    if (guide == name) return weight;
+  return -1.0;
+}
+
+TEST(CopyPlan, WeightsAndPatchesFollowThePainting) {
+  const Scene scene = test::small_scene().scene;
+  const SynthesisParameters usual = to_synthesis_parameters(scene);
+  Exemplar painting = halves({"distance", "valley", "tone"});
+  const SynthesisParameters fitted = fit_to_paintings(scene, {painting}, silent_progress());
+  // Values 50 apart in equal numbers: two random ones differ by 2 × 25² × 300 / 299 in the mean
+  // square, at 270 each.
+  const double expected = 70000.0 / 270.0 / (1250.0 * 300.0 / 299.0);
+  EXPECT_NEAR(weight_of(fitted, "distance"), expected, 1e-9);
+  EXPECT_NEAR(weight_of(fitted, "valley"), expected, 1e-9);
+  EXPECT_NEAR(weight_of(fitted, "tone"), expected, 1e-9);
+  EXPECT_EQ(weight_of(fitted, "slope"), weight_of(usual, "slope")) << "the painting lacks it";
+  EXPECT_EQ(fitted.neighbourhood, 9) << "strokes of 12 pixels and more";
+  // What the scene says stays.
+  const Scene said = test::small_scene({"synthesis.weights={ distance = 0.02, valley = 0 }",
+                                        "synthesis.neighbourhood=5"})
+                         .scene;
+  const SynthesisParameters own = fit_to_paintings(said, {painting}, silent_progress());
+  EXPECT_EQ(weight_of(own, "distance"), 0.02);
+  EXPECT_EQ(weight_of(own, "valley"), 0.0);
+  EXPECT_NEAR(weight_of(own, "tone"), expected, 1e-9);
+  EXPECT_EQ(own.neighbourhood, 5);
+  // The program's own sheet is copied as ever.
+  painting.name = example_sheet_name;
+  const SynthesisParameters sheet = fit_to_paintings(scene, {painting}, silent_progress());
+  EXPECT_EQ(sheet.weights, usual.weights);
+  EXPECT_EQ(sheet.neighbourhood, 7);
 }
 
 TEST(CopyPlan, AVeryFinePrintIsNoted) {

@@ -88,13 +88,49 @@ TEST(ExemplarSurvey, TellsHowManyPixelsFindTexelsOfTheirAltitude) {
             false);
 }
 
+// What a guide explains: all of the step between two halves, and of their contrast, and nothing of
+// noise.
+TEST(ExemplarSurvey, GuidesExplainThePaintThatFollowsThem) {
+  Exemplar exemplar = two_hands(40, 40);
+  Guide half{"half", Grid<std::uint8_t>(160, 120)};
+  Guide chance{"chance", Grid<std::uint8_t>(160, 120)};
+  for (const auto [x, y] : test::cells(160, 120)) {
+    half.values(x, y) = x < 80 ? 0 : 255;
+    chance.values(x, y) = static_cast<std::uint8_t>(random_index(256, 21, x / 8, y / 8));
+  }
+  Exemplar hands = two_hands(40, 10);
+  hands.guides.guides = {half};
+  exemplar.guides.guides = {half, chance};
+  for (const auto [x, y] : test::cells(160, 120))
+    if (x < 80)
+      for (std::uint8_t& c : exemplar.picture(x, y)) c = static_cast<std::uint8_t>(c - 60);
+  const std::vector<GuideShare> shares = explain_paint({exemplar});
+  ASSERT_EQ(shares.size(), 2U);
+  EXPECT_EQ(shares[0].name, "half");
+  EXPECT_GT(shares[0].explained, 0.95);
+  // Two values 255 apart in equal numbers: 2 × 127.5² × 300 / 299 blocks.
+  EXPECT_NEAR(shares[0].difference, 32512.5 * 300.0 / 299.0, 0.1);
+  EXPECT_LT(shares[1].explained, 0.12);
+  EXPECT_GT(explain_paint({hands}).at(0).explained, 0.9);
+  // An exemplar without the guide takes no part, nor does one too small for a block.
+  Exemplar without = two_hands(60, 10);
+  without.guides.guides.clear();
+  EXPECT_EQ(explain_paint({hands, without}).at(0).explained,
+            explain_paint({hands}).at(0).explained);
+  EXPECT_TRUE(explain_paint({without}).empty());
+}
+
 // Bars along a row, 12 pixels long and 1 high: their run is measured.
 TEST(ExemplarSurvey, TellsHowLongStrokesAre) {
   Exemplar exemplar = two_hands(60, 60);
   for (const auto [x, y] : test::cells(160, 120))
     exemplar.picture(x, y).fill(
         static_cast<std::uint8_t>(random_index(2, 8, (x + 5 * y) / 12, y) == 0 ? 20 : 220));
-  EXPECT_GT(survey_exemplar(exemplar).classes.at(0).stroke_run_px, 12.0);
+  const double run = survey_exemplar(exemplar).classes.at(0).stroke_run_px;
+  EXPECT_GT(run, 12.0);
+  EXPECT_NEAR(mean_stroke_px({exemplar}), run, 1e-9);
+  exemplar.guides.label = Grid<std::uint8_t>(160, 120, unused_label);
+  EXPECT_EQ(mean_stroke_px({exemplar}), 0.0);
 }
 
 }  // namespace
