@@ -1,9 +1,11 @@
 #include "renderer/exemplar/fitted_ramps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <glm/vec4.hpp>
 #include <utility>
 
 #include "base/parallel.h"
@@ -219,6 +221,18 @@ Grid<glm::vec3> make_ramp_base(const FittedRamps& ramps, const Grid<glm::vec3>& 
       base(x, y) = ramp.colour(tone(x, y), distance.empty() ? 0.0 : distance(x, y));
     }
   });
+  return base;
+}
+
+Grid<glm::vec3> make_centred_base(const FittedRamps& ramps, const Grid<glm::vec3>& picture,
+                                  const Grid<std::uint8_t>& labels, const Grid<float>& tone,
+                                  const Grid<std::uint8_t>& distance) {
+  Grid<glm::vec3> base = make_ramp_base(ramps, picture, labels, tone, distance);
+  std::array<glm::dvec4, 256> sums{};  // of the difference, and its count
+  for (std::size_t i = 0; i < base.size(); ++i)
+    sums[labels[i]] += glm::dvec4(glm::dvec3(picture[i] - base[i]), 1.0);
+  for (std::size_t i = 0; i < base.size(); ++i)
+    base[i] += glm::vec3(glm::dvec3(sums[labels[i]]) / sums[labels[i]].w);
   return base;
 }
 

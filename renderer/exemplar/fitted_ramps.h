@@ -36,5 +36,10 @@ FittedRamps fit_ramps(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& 
 Grid<glm::vec3> make_ramp_base(const FittedRamps& ramps, const Grid<glm::vec3>& picture,
                                const Grid<std::uint8_t>& labels, const Grid<float>& tone,
                                const Grid<std::uint8_t>& distance);
+// The same, moved by class to the mean of the paint: strokes that are not symmetrical, dark
+// outlines or light flecks, would otherwise darken or lighten whatever is copied.
+Grid<glm::vec3> make_centred_base(const FittedRamps& ramps, const Grid<glm::vec3>& picture,
+                                  const Grid<std::uint8_t>& labels, const Grid<float>& tone,
+                                  const Grid<std::uint8_t>& distance);
 
 }  // namespace belvedere

@@ -328,7 +328,7 @@ ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double resid
   if (!guidance.base.empty() && (raw.painted || !raw.measured))
     painted.base = encode_srgb(guidance.base);
   else
-    painted.base = make_ramp_base(scan.ramps, raw.picture, raw.labels, guidance.tone, distance);
+    painted.base = make_centred_base(scan.ramps, raw.picture, raw.labels, guidance.tone, distance);
   const bool leave_shadow = settings.found_shadow == "exclude" && !guidance.shadow.empty();
   for (std::size_t i = 0; i < raw.labels.size(); ++i) {
     const auto id = static_cast<LandCoverClass>(raw.labels[i]);

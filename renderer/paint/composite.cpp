@@ -46,13 +46,12 @@ glm::vec3 softly(glm::vec3 d, float max) {
 
 // A texel of another position as paint of this one (transfer_residual). Its base is null where it
 // is unknown.
-glm::vec3 carried_over(glm::vec3 texel, const glm::vec3* its_base, glm::vec3 base, double residual,
-                       LandCoverClass shown) {
+glm::vec3 carried_over(glm::vec3 texel, const glm::vec3* its_base, glm::vec3 base,
+                       const Residual& residual, LandCoverClass shown) {
   if (its_base == nullptr) return texel;
   if (has_trait(shown, ClassTrait::icy)) return base + softly(texel - *its_base, snow_strokes_max);
-  const auto r = static_cast<float>(
-      shown == LandCoverClass::rock ? std::max(residual, rock_residual) : residual);
-  return texel + r * (base - *its_base);
+  return texel + (shown == LandCoverClass::rock ? residual.at_least(rock_residual) : residual)
+                     .of(base - *its_base);
 }
 
 glm::vec3 below_air(glm::vec3 paint, glm::vec3 base, const Grid<float>& haze, std::size_t i) {
@@ -74,7 +73,7 @@ Grid<glm::vec3> encode_srgb(const Image& linear) {
 Grid<glm::vec3> transfer_residual(const MatchField& matches,
                                   const std::vector<PaintedExemplar>& exemplars,
                                   const Grid<glm::vec3>& target_base,
-                                  const Grid<float>& target_haze, double residual,
+                                  const Grid<float>& target_haze, const Residual& residual,
                                   const Grid<LandCoverClass>& shown) {
   if (!matches.same_size(target_base))
     throw Error(ErrorKind::bug, "composite", "the match field and the base have different sizes");
@@ -112,7 +111,7 @@ Grid<glm::vec3> transfer_residual(const MatchField& matches,
 
 void lay_model_paint(Grid<glm::vec3>& picture, const ModelPaint& paint,
                      const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
-                     double residual, const Grid<LandCoverClass>& shown) {
+                     const Residual& residual, const Grid<LandCoverClass>& shown) {
   if (!picture.same_size(paint.made) || !picture.same_size(target_base) ||
       !picture.same_size(shown))
     throw Error(ErrorKind::bug, "composite",
@@ -128,14 +127,14 @@ void lay_model_paint(Grid<glm::vec3>& picture, const ModelPaint& paint,
   });
 }
 
-glm::vec3 in_even_light(glm::vec3 texel, const glm::vec3* its_base, double residual,
+glm::vec3 in_even_light(glm::vec3 texel, const glm::vec3* its_base, const Residual& residual,
                         LandCoverClass shown) {
   return carried_over(texel, its_base, glm::vec3(even_grey), residual, shown);
 }
 
 void lay_even_paint(Grid<glm::vec3>& picture, const SeamPaint& paint,
                     const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
-                    double residual, const Grid<LandCoverClass>& shown) {
+                    const Residual& residual, const Grid<LandCoverClass>& shown) {
   if (!picture.same_size(paint.made) || !picture.same_size(target_base) ||
       !picture.same_size(shown))
     throw Error(ErrorKind::bug, "composite", "the picture and the seam paint have different sizes");
@@ -145,8 +144,8 @@ void lay_even_paint(Grid<glm::vec3>& picture, const SeamPaint& paint,
       if (paint.made[i] == 0) continue;
       // As in carried_over: in even light snow's strokes are already limited.
       const bool whole = has_trait(shown[i], ClassTrait::icy) || shown[i] == LandCoverClass::rock;
-      const auto r = static_cast<float>(whole ? std::max(residual, rock_residual) : residual);
-      picture[i] = below_air(paint.even[i] + r * (target_base[i] - even_grey), target_base[i],
+      const Residual share = whole ? residual.at_least(rock_residual) : residual;
+      picture[i] = below_air(paint.even[i] + share.of(target_base[i] - even_grey), target_base[i],
                              target_haze, i);
     }
   });

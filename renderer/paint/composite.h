@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "base/grid.h"
@@ -16,6 +17,24 @@ struct PaintedExemplar {
   Grid<glm::vec3> base;     // its base picture, encoded sRGB; empty for a scan
 };
 
+// Share of the difference of two base pictures that is added to a texel, 0…1: of its colour and of
+// its lightness. A texel that keeps a part of its own ground's lightness makes a picture darker or
+// lighter where painting and palette differ, so paintings take all of it.
+struct Residual {
+  double colour = 0.75;
+  double lightness = 0.75;
+  Residual(double both) : colour(both), lightness(both) {}
+  Residual(double of_colour, double of_lightness) : colour(of_colour), lightness(of_lightness) {}
+  // At least `share` of both.
+  Residual at_least(double share) const {
+    return {std::max(colour, share), std::max(lightness, share)};
+  }
+  glm::vec3 of(glm::vec3 difference) const {
+    const float grey = 0.2126F * difference.x + 0.7152F * difference.y + 0.0722F * difference.z;
+    return static_cast<float>(colour) * difference + static_cast<float>(lightness - colour) * grey;
+  }
+};
+
 // Rock takes the whole difference of the base pictures, so that only the strokes of a texel remain,
 // not its own planes.
 inline constexpr double rock_residual = 1.0;
@@ -24,7 +43,7 @@ inline constexpr double rock_residual = 1.0;
 // look like dirt on other snow.
 inline constexpr float snow_strokes_max = 0.07F;
 
-// paint = texel + residual · (base_target - base_exemplar), in encoded sRGB (reasons:
+// paint = texel + residual of (base_target - base_exemplar), in encoded sRGB (reasons:
 // docs/architecture.md), clamped to 0…1. residual 0…1; where `shown` (empty: nowhere) is rock,
 // rock_residual; where it is snow or ice, base_target + (texel - base_exemplar), softly limited.
 // Air lies over paint as it lies over the base: out = base_target + (1 - haze) · (paint -
@@ -34,7 +53,7 @@ inline constexpr float snow_strokes_max = 0.07F;
 Grid<glm::vec3> transfer_residual(const MatchField& matches,
                                   const std::vector<PaintedExemplar>& exemplars,
                                   const Grid<glm::vec3>& target_base,
-                                  const Grid<float>& target_haze, double residual,
+                                  const Grid<float>& target_haze, const Residual& residual,
                                   const Grid<LandCoverClass>& shown = {});
 
 // Paint that a texture model made for pixels of a picture, and the model's own light, which the
@@ -49,12 +68,12 @@ struct ModelPaint {
 // where it was made.
 void lay_model_paint(Grid<glm::vec3>& picture, const ModelPaint& paint,
                      const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
-                     double residual, const Grid<LandCoverClass>& shown);
+                     const Residual& residual, const Grid<LandCoverClass>& shown);
 
 // Paint as it would look on a middle grey base: what transfer_residual lays over any position for a
 // texel of a class. The base is null where it is unknown. Not clamped to 0…1.
 inline constexpr float even_grey = 0.5F;
-glm::vec3 in_even_light(glm::vec3 texel, const glm::vec3* its_base, double residual,
+glm::vec3 in_even_light(glm::vec3 texel, const glm::vec3* its_base, const Residual& residual,
                         LandCoverClass shown);
 // Such paint where `made` is not 0, laid over a picture in the light and air of the position.
 struct SeamPaint {
@@ -63,7 +82,7 @@ struct SeamPaint {
 };
 void lay_even_paint(Grid<glm::vec3>& picture, const SeamPaint& paint,
                     const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
-                    double residual, const Grid<LandCoverClass>& shown);
+                    const Residual& residual, const Grid<LandCoverClass>& shown);
 
 // Borders of classes as strokes leave them. A texel is of one class, so a picture of texels alone
 // looks torn where classes meet. Where two classes share a pixel in `draft`, the paint of the other

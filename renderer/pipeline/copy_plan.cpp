@@ -74,6 +74,11 @@ void make_records(GroundModels& models, std::vector<SceneTextureModel> read, std
   }
 }
 
+bool any_painting(const std::vector<Exemplar>& exemplars) {
+  return std::any_of(exemplars.begin(), exemplars.end(),
+                     [](const Exemplar& e) { return e.name != example_sheet_name; });
+}
+
 // Input of the seam models, if the scene synthesizes seams.
 void add_seam_sources(CopyPlan& plan, const Scene& scene) {
   if (!scene.synthesis.synthesize_seams) return;
@@ -128,9 +133,7 @@ SynthesisParameters fit_to_paintings(const Scene& scene, const std::vector<Exemp
   constexpr double least_share = 0.02;       // for a guide that is off by default
   constexpr std::ptrdiff_t most_guides = 8;  // more are priced one by one, at twice the time
   SynthesisParameters parameters = to_synthesis_parameters(scene);
-  if (std::all_of(exemplars.begin(), exemplars.end(),
-                  [](const Exemplar& e) { return e.name == example_sheet_name; }))
-    return parameters;
+  if (!any_painting(exemplars)) return parameters;
   std::vector<GuideShare> shares = explain_paint(exemplars);
   std::stable_sort(shares.begin(), shares.end(), [](const GuideShare& a, const GuideShare& b) {
     return a.explained > b.explained;
@@ -214,7 +217,6 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
                         const WorkFolder& work, const Run& run, bool ground_tells) {
   CopyPlan plan;
   if (const std::string note = fine_print_note(world.scene); !note.empty()) run.progress.note(note);
-  plan.residual = world.scene.synthesis.residual;
   // A palette of the paintings has shifted it already.
   if (world.scene.synthesis.colours != "painting")
     plan.water_shift = water_shift(paint.palette, paint.paintings);
@@ -226,6 +228,9 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
     copied_from.push_back(painted.exemplar);
     plan.own_sheets.push_back(painted.exemplar.name == example_sheet_name);
   }
+  plan.residual = world.scene.synthesis.residual;
+  if (any_painting(copied_from))
+    plan.residual.lightness = std::min(1.0, plan.residual.colour / SceneSynthesis{}.residual);
   const glm::ivec2 sheet = world.camera->size();
   std::vector<SceneTextureModel> models = read_texture_models(loaded);
   add_seam_sources(plan, world.scene);

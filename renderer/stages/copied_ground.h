@@ -48,8 +48,8 @@ Painting to_painting(const PaintDraft& draft, PixelRect window);
 struct CopyPlan {
   std::vector<PaintedExemplar> exemplars;
   std::optional<SynthesisPlan> synthesis;
-  double residual = 0.75;  // share of the difference of base pictures applied to a texel, 0…1
-  GroundModels models;     // of classes that are not copied
+  Residual residual = 0.75;
+  GroundModels models;               // of classes that are not copied
   std::optional<SeamSources> seams;  // models that synthesize seams; null: seams stay as copied
   // How far the paintings' water is from the palette's (water_shift); 0 without paintings.
   glm::vec3 water_shift{0.0F};

@@ -147,8 +147,8 @@ Grid<Pair> find_seams(const PaintBeforeSeams& paint) {
 
 }  // namespace
 
-SeamSources find_seam_sources(const std::vector<PaintedExemplar>& exemplars, double residual,
-                              std::uint64_t seed) {
+SeamSources find_seam_sources(const std::vector<PaintedExemplar>& exemplars,
+                              const Residual& residual, std::uint64_t seed) {
   SeamSources sources;
   sources.seed = seed;
   for (const PaintedExemplar& painted : exemplars) {
@@ -175,7 +175,7 @@ SeamSources find_seam_sources(const std::vector<PaintedExemplar>& exemplars, dou
   return sources;
 }
 
-void add_model_sources(SeamSources& sources, const GroundModels& models, double residual) {
+void add_model_sources(SeamSources& sources, const GroundModels& models, const Residual& residual) {
   for (std::size_t m = 0; m < models.models.size(); ++m) {
     auto& of = sources.of.emplace_back();
     Grid<Rgb8> made;

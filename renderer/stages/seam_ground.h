@@ -55,10 +55,10 @@ struct SeamSources {
 };
 // For each class of an exemplar the square of seam_sample_px that contains most of it. To be called
 // before the exemplars discard their classes.
-SeamSources find_seam_sources(const std::vector<PaintedExemplar>& exemplars, double residual,
-                              std::uint64_t seed);
+SeamSources find_seam_sources(const std::vector<PaintedExemplar>& exemplars,
+                              const Residual& residual, std::uint64_t seed);
 // Adds the paint of each model for its classes. To be called after the exemplars'.
-void add_model_sources(SeamSources& sources, const GroundModels& models, double residual);
+void add_model_sources(SeamSources& sources, const GroundModels& models, const Residual& residual);
 
 // Models of seams by the paint on their two sides; each is learnt on first use, from the sources
 // alone.

@@ -89,6 +89,25 @@ TEST(FitRamps, FindsTheRampsUnderStrokesAndFlecks) {
             0.012);
 }
 
+// Flecks are a twelfth of the paint and no part of the ramps: the centred base is lighter by their
+// share of lightness, and the paint has its mean.
+TEST(FitRamps, ACentredBaseHasTheMeanOfThePaint) {
+  const Painted p = paint(0.0);
+  const FittedRamps ramps = fit_ramps(p.picture, p.labels, p.tone, {});
+  const Grid<glm::vec3> plain = make_ramp_base(ramps, p.picture, p.labels, p.tone, {});
+  const Grid<glm::vec3> centred = make_centred_base(ramps, p.picture, p.labels, p.tone, {});
+  for (const std::uint8_t label : {std::uint8_t{4}, std::uint8_t{7}}) {
+    double before = 0.0, after = 0.0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      if (p.labels[i] != label) continue;
+      before += static_cast<double>(p.picture[i].y - plain[i].y) / 6000.0;
+      after += static_cast<double>(p.picture[i].y - centred[i].y) / 6000.0;
+    }
+    EXPECT_GT(before, 0.015);
+    EXPECT_NEAR(after, 0.0, 1e-5);
+  }
+}
+
 TEST(FitRamps, AirIsFoundByDistance) {
   const Painted p = paint(0.6);
   const auto error = [&](const Grid<std::uint8_t>& distance) {

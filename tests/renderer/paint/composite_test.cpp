@@ -109,6 +109,33 @@ TEST(TransferResidual, KeepsTheMeanLuminanceOfLitGround) {
   EXPECT_LT(luminance(multiplied) / base, 0.6);
 }
 
+// A painting that is darker and of another hue than the palette: with all of the lightness the
+// picture is as light as its base, and a quarter of the hue stays.
+TEST(TransferResidual, WholeLightnessKeepsThatOfTheBase) {
+  PaintedExemplar exemplar;
+  exemplar.picture = Grid<glm::vec3>(60, 40);
+  exemplar.base = Grid<glm::vec3>(60, 40, glm::vec3(0.35F, 0.3F, 0.15F));
+  MatchField matches(60, 40);
+  for (const auto [x, y] : test::cells(60, 40)) {
+    exemplar.picture(x, y) =
+        exemplar.base(x, y) + glm::vec3(0.05F * static_cast<float>((x + y) % 2 == 0 ? 1 : -1));
+    matches(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
+  }
+  const glm::vec3 base(0.4F, 0.55F, 0.35F);
+  const Grid<glm::vec3> target(60, 40, base);
+  const auto mean = [&](const Residual& residual) {
+    glm::dvec3 sum(0.0);
+    for (const glm::vec3& colour : transfer_residual(matches, {exemplar}, target, {}, residual))
+      sum += glm::dvec3(colour) / 2400.0;
+    return sum;
+  };
+  const auto luma = [](const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; };
+  EXPECT_NEAR(luma(mean({0.75, 1.0})), luma(base), 1e-4);
+  EXPECT_LT(luma(mean(0.75)), 0.95 * luma(base)) << "a quarter of the painting's darkness";
+  // Red minus green: -.15 of the base, .05 of the painting.
+  EXPECT_NEAR(mean({0.75, 1.0}).x - mean({0.75, 1.0}).y, 0.75 * -0.15 + 0.25 * 0.05, 1e-4);
+}
+
 // Of a texel's own planes of rock only the strokes on them remain.
 TEST(TransferResidual, RockAndSnowTakeAllOfTheLightOfTheirOwnPlace) {
   const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
