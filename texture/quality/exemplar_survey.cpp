@@ -1,14 +1,11 @@
 #include "texture/quality/exemplar_survey.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "base/error.h"
 #include "texture/quality/quality.h"
 #include "texture/quality/quality_parts.h"
 
@@ -238,33 +235,36 @@ double mean_stroke_px(const std::vector<Exemplar>& exemplars) {
   return texels > 0.0 ? sum / texels : 0.0;
 }
 
-double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& target,
-                     std::uint8_t label, const std::string& guide, int reach) {
-  const auto values_of = [&](const GuideStack& stack) -> const Grid<std::uint8_t>& {
-    const Grid<std::uint8_t>* values = stack.find(guide);
-    if (values == nullptr)
-      throw Error(ErrorKind::usage, "guides",
-                  fmt::format("guide \"{}\" is missing on one side", guide));
-    return *values;
-  };
-  std::array<bool, 256> served{};
-  for (const Exemplar& exemplar : exemplars) {
-    const Grid<std::uint8_t>& values = values_of(exemplar.guides);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (exemplar.guides.label[i] != label) continue;
-      for (int v = std::max(0, values[i] - reach); v <= std::min(255, values[i] + reach); ++v)
-        served[static_cast<std::size_t>(v)] = true;
+std::vector<GuideFit> fit_guides(const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                                 std::uint8_t label, int reach) {
+  std::vector<GuideFit> fits;
+  for (const Guide& guide : target.guides) {
+    constexpr int nowhere = 256;
+    std::array<int, 256> off{};  // from each value to the nearest texel's
+    off.fill(nowhere);
+    for (const Exemplar& exemplar : exemplars)
+      if (const Grid<std::uint8_t>* values = exemplar.guides.find(guide.name))
+        for (std::size_t i = 0; i < values->size(); ++i)
+          if (exemplar.guides.label[i] == label) off[(*values)[i]] = 0;
+    for (std::size_t v = 1; v < 256; ++v) off[v] = std::min(off[v], off[v - 1] + 1);
+    for (std::size_t v = 255; v > 0; --v) off[v - 1] = std::min(off[v - 1], off[v] + 1);
+    if (off[0] >= nowhere) continue;
+    GuideFit fit{.name = guide.name};
+    double pixels = 0.0, covered = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < guide.values.size(); ++i) {
+      if (target.label[i] != label) continue;
+      const int here = off[guide.values[i]];
+      pixels += 1.0;
+      covered += here <= reach ? 1.0 : 0.0;
+      squares += here * here;
     }
+    if (pixels > 0.0) {
+      fit.covered = covered / pixels;
+      fit.square = squares / pixels;
+    }
+    fits.push_back(fit);
   }
-  const Grid<std::uint8_t>& requested = values_of(target);
-  std::size_t pixels = 0;
-  std::size_t covered = 0;
-  for (std::size_t i = 0; i < requested.size(); ++i) {
-    if (target.label[i] != label) continue;
-    ++pixels;
-    covered += served[requested[i]] ? 1 : 0;
-  }
-  return pixels == 0 ? 1.0 : static_cast<double>(covered) / static_cast<double>(pixels);
+  return fits;
 }
 
 }  // namespace belvedere

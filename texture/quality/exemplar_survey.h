@@ -68,10 +68,15 @@ std::vector<GuideShare> explain_paint(const std::vector<Exemplar>& exemplars);
 // Mean length of strokes (stroke_run) over all classes of the exemplars, texels; 0: not known.
 double mean_stroke_px(const std::vector<Exemplar>& exemplars);
 
-// Share of the target's pixels of a class for which some texel of it has that guide within `reach`
-// steps; 1 if the target has no such pixel. Error(usage) if the target or an exemplar lacks the
-// guide.
-double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& target,
-                     std::uint8_t label, const std::string& guide, int reach);
+// How the texels of a class meet a guide of a target.
+struct GuideFit {
+  std::string name;
+  double covered = 1.0;  // share of the target's pixels that find a texel within `reach` steps
+  double square = 0.0;   // mean squared difference of pixels from the nearest texel, steps²
+};
+// For each guide of the target that an exemplar with texels of the class knows; each guide by
+// itself.
+std::vector<GuideFit> fit_guides(const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                                 std::uint8_t label, int reach);
 
 }  // namespace belvedere

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <tuple>
 
 #include "base/error.h"
 #include "base/text/text_encoding.h"
 #include "renderer/exemplar/texture_models.h"
+#include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/scene_check.h"
+#include "texture/synthesis/match_cost.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/synthesis_files.h"
@@ -35,9 +38,9 @@ struct ExemplarCheckOptions {
 struct Subject {
   std::vector<Exemplar> exemplars;
   std::vector<ExemplarFindings::Model> models;
-  GuideStack target;            // without labels: not known
-  double pixels_of_target = 1;  // that each pixel of `target` represents
-  int altitude_reach = 4;       // levels within which a texel has a pixel's altitude
+  GuideStack target;                                    // without labels: not known
+  double pixels_of_target = 1;                          // that each pixel of `target` represents
+  std::vector<std::pair<std::string, double>> weights;  // of guides; absent: 1
   std::map<std::uint8_t, std::uint8_t> fallback;
 };
 
@@ -104,12 +107,12 @@ Subject from_scene(const ExemplarCheckOptions& options, Progress& progress) {
     for (const LandCoverClass id : model.serves)
       told.labels.push_back(static_cast<std::uint8_t>(id));
   }
-  for (PaintedExemplar& painted : found.exemplars) {
-    Exemplar exemplar = std::move(painted.exemplar);
-    exemplar.picture = to_rgb8(
-        painted.picture);  // the painting itself, not the picture that seams are measured on
-    subject.exemplars.push_back(std::move(exemplar));
-  }
+  for (PaintedExemplar& painted : found.exemplars)
+    subject.exemplars.push_back(std::move(painted.exemplar));
+  subject.weights = fit_to_paintings(scene.scene, subject.exemplars, progress).weights;
+  for (std::size_t e = 0; e < subject.exemplars.size(); ++e)
+    subject.exemplars[e].picture = to_rgb8(
+        found.exemplars[e].picture);  // the painting itself, not that which seams are measured on
   return subject;
 }
 
@@ -118,23 +121,36 @@ void ask(const Subject& subject, GuideStack& asked, ExemplarFindings& findings) 
   findings.target_known = !subject.target.label.empty();
   if (!findings.target_known) return;
   asked.label = serving_labels(subject.exemplars, subject.target.label, subject.fallback);
-  bool altitude = asked.find("altitude") != nullptr;
-  for (const Exemplar& exemplar : subject.exemplars)
-    altitude = altitude && exemplar.guides.find("altitude") != nullptr;
   const auto scaled = [&](std::size_t pixels) {
     return static_cast<double>(pixels) * subject.pixels_of_target;
   };
   for (ClassTexels available :
        class_texels(subject.exemplars, subject.target.label, subject.fallback)) {
     available.pixels = static_cast<std::size_t>(std::llround(scaled(available.pixels)));
-    findings.demands.push_back(
-        {available, altitude ? covered_share(subject.exemplars, asked, available.label, "altitude",
-                                             subject.altitude_reach)
-                             : -1.0});
+    constexpr int reach = 4;  // levels within which a texel has a pixel's value
+    NeededClassTexels& demand = findings.demands.emplace_back();
+    demand.available = available;
+    for (GuideFit& fit : fit_guides(subject.exemplars, asked, available.label, reach)) {
+      double weight = 1.0;
+      for (const auto& [name, value] : subject.weights)
+        if (name == fit.name) weight = value;
+      const double cost = static_cast<double>(guide_cost(1, weight)) * fit.square;
+      if (weight > 0.0) demand.guides.push_back({std::move(fit), cost});
+    }
+    std::stable_sort(demand.guides.begin(), demand.guides.end(),
+                     [](const auto& a, const auto& b) { return a.cost > b.cost; });
   }
   std::array<std::size_t, 256> without{};
-  for (std::size_t i = 0; i < asked.label.size(); ++i)
-    if (asked.label[i] == unused_label) ++without[subject.target.label[i]];
+  std::map<std::pair<std::uint8_t, std::uint8_t>, std::size_t> stand_ins;
+  for (std::size_t i = 0; i < asked.label.size(); ++i) {
+    const std::uint8_t own = subject.target.label[i];
+    if (asked.label[i] == unused_label)
+      ++without[own];
+    else if (asked.label[i] != own)
+      ++stand_ins[{own, asked.label[i]}];
+  }
+  for (const auto& [pair, pixels] : stand_ins)
+    findings.stand_ins.push_back({pair.first, pair.second, std::round(scaled(pixels))});
   for (std::size_t label = 0; label < unused_label; ++label)
     if (without[label] > 0)
       findings.missing.emplace_back(static_cast<std::uint8_t>(label),
@@ -168,6 +184,7 @@ int run(const ExemplarCheckOptions& options) {
   progress.begin("measuring", static_cast<double>(subject.exemplars.size()));
   ExemplarFindings findings;
   findings.models = subject.models;
+  findings.explained = explain_paint(subject.exemplars);
   for (const Exemplar& exemplar : subject.exemplars) {
     findings.paintings.push_back({exemplar.name, exemplar.picture.width(),
                                   exemplar.picture.height(), survey_exemplar(exemplar)});

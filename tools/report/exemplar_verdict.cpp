@@ -128,9 +128,13 @@ std::string describe_needed_texels(const NeededClassTexels& demand) {
                                "{} texels would be needed, there are {}",
                                grouped(available.pixels), grouped(available.serves()),
                                grouped(available.texels_needed()), grouped(available.texels));
-  if (demand.altitude_covered >= 0.0 && demand.altitude_covered < low_coverage)
-    text += fmt::format("; only {:.0f} % of its pixels find texels of their altitude",
-                        100.0 * demand.altitude_covered);
+  for (const NeededClassTexels::Guide& guide : demand.guides)
+    if (guide.fit.covered < low_coverage)
+      text += fmt::format("; only {:.0f} % of its pixels find texels of their {}",
+                          100.0 * guide.fit.covered, guide.fit.name);
+  if (!demand.guides.empty() && demand.guides[0].cost >= 1.0)
+    text += fmt::format("; {} costs most, {} a pixel", demand.guides[0].fit.name,
+                        grouped(static_cast<std::size_t>(demand.guides[0].cost)));
   return text;
 }
 
@@ -166,6 +170,11 @@ std::string findings_text(const ExemplarFindings& findings) {
       for (const std::string& flaw : describe_flaws(of, findings))
         out += fmt::format("  {}: {}\n", findings.name(of.label), flaw);
   }
+  std::string explained;
+  for (const GuideShare& share : findings.explained)
+    explained += fmt::format("{}{} {:.0f} %", explained.empty() ? "" : ", ", share.name,
+                             100.0 * share.explained);
+  if (!explained.empty()) out += "guides explain of the paint's variance: " + explained + "\n";
   for (const ExemplarFindings::Model& model : findings.models) out += model_text(model, findings);
   if (!findings.target_known)
     return out + fmt::format("a texel serves up to {} pixels before strokes visibly repeat\n",
@@ -174,6 +183,9 @@ std::string findings_text(const ExemplarFindings& findings) {
   for (const NeededClassTexels& demand : findings.demands)
     out += fmt::format("  {}: {}\n", findings.name(demand.available.label),
                        describe_needed_texels(demand));
+  for (const auto& [label, by, pixels] : findings.stand_ins)
+    out += fmt::format("  {}: no texels of its own, {} pixels copy from {}\n", findings.name(label),
+                       grouped(static_cast<std::size_t>(pixels)), findings.name(by));
   for (const auto& [label, pixels] : findings.missing)
     out += fmt::format("  {}: no texels at all, but {} pixels need it\n", findings.name(label),
                        grouped(pixels));
@@ -212,6 +224,12 @@ Json findings_json(const ExemplarFindings& findings) {
     Json demands = Json::array();
     for (const NeededClassTexels& demand : findings.demands) {
       const ClassTexels& available = demand.available;
+      Json guides = Json::array();
+      for (const auto& [fit, cost] : demand.guides)
+        guides.add(Json::object()
+                       .add("name", Json::text(fit.name))
+                       .add("covered", Json::number(fit.covered))
+                       .add("cost", Json::number(cost)));
       demands.add(
           Json::object()
               .add("label", Json::number(available.label))
@@ -220,9 +238,7 @@ Json findings_json(const ExemplarFindings& findings) {
               .add("texels", Json::number(static_cast<double>(available.texels)))
               .add("texels_needed", Json::number(static_cast<double>(available.texels_needed())))
               .add("enough", Json::boolean(available.enough()))
-              .add("altitude_covered", demand.altitude_covered < 0.0
-                                           ? Json::raw("null")
-                                           : Json::number(demand.altitude_covered)));
+              .add("guides", std::move(guides)));
     }
     Json missing = Json::array();
     for (const auto& [label, pixels] : findings.missing)
@@ -230,7 +246,15 @@ Json findings_json(const ExemplarFindings& findings) {
                       .add("label", Json::number(label))
                       .add("name", Json::text(findings.name(label)))
                       .add("pixels", Json::number(pixels)));
-    out.add("asked", std::move(demands)).add("missing", std::move(missing));
+    Json stand_ins = Json::array();
+    for (const auto& [label, by, pixels] : findings.stand_ins)
+      stand_ins.add(Json::object()
+                        .add("label", Json::number(label))
+                        .add("copies_from", Json::number(by))
+                        .add("pixels", Json::number(pixels)));
+    out.add("asked", std::move(demands))
+        .add("stand_ins", std::move(stand_ins))
+        .add("missing", std::move(missing));
   }
   return out;
 }

@@ -14,8 +14,11 @@ namespace belvedere::tools {
 // Demand on all paintings together, where a target is known.
 struct NeededClassTexels {
   ClassTexels available;
-  double altitude_covered =
-      -1.0;  // share of its pixels that find texels of their altitude; < 0: not known
+  struct Guide {
+    GuideFit fit;
+    double cost = 0.0;  // mean price of its errors, where each pixel takes the nearest texel
+  };
+  std::vector<Guide> guides = {};  // the most expensive first
 };
 
 // Everything `exemplar check` found.
@@ -38,6 +41,12 @@ struct ExemplarFindings {
   std::vector<NeededClassTexels> demands;  // by label
   std::vector<std::pair<std::uint8_t, double>>
       missing;  // classes without texels and fallback, and their pixels
+  struct StandIn {
+    std::uint8_t label = 0, by = 0;  // a class without texels, and the one it copies from
+    double pixels = 0.0;
+  };
+  std::vector<StandIn> stand_ins;
+  std::vector<GuideShare> explained;                          // what guides explain of the paint
   std::function<std::string(std::uint8_t)> name;              // of a label
   std::function<std::string(const std::string&, int)> value;  // of a guide, formatted
 };

@@ -80,12 +80,18 @@ TEST(ExemplarSurvey, TellsHowManyPixelsFindTexelsOfTheirAltitude) {
   target.label = Grid<std::uint8_t>(200, 1, 4);
   target.guides = {{"altitude", Grid<std::uint8_t>(200, 1)}};
   for (int x = 0; x < 200; ++x) target.guides[0].values(x, 0) = static_cast<std::uint8_t>(x);
-  EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 0), 120.0 / 200.0);
-  EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 3), 132.0 / 200.0);
-  EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 40), 1.0);
-  EXPECT_EQ(covered_share(exemplars, target, 5, "altitude", 0), 1.0);
-  EXPECT_EQ(test::usage_error([&] { covered_share(exemplars, target, 4, "tone", 0); }).empty(),
-            false);
+  const auto covered = [&](int reach) {
+    return fit_guides(exemplars, target, 4, reach).at(0).covered;
+  };
+  EXPECT_EQ(covered(0), 120.0 / 200.0);
+  EXPECT_EQ(covered(3), 132.0 / 200.0);
+  EXPECT_EQ(covered(40), 1.0);
+  // Distances from the nearest texel: 20 … 1 below, 1 … 20 … 1 in the gap of 40 values, 1 … 20
+  // above; Σ k² for k = 1 … 20 is 2870.
+  EXPECT_EQ(fit_guides(exemplars, target, 4, 0).at(0).square, 4 * 2870.0 / 200.0);
+  EXPECT_TRUE(fit_guides(exemplars, target, 5, 0).empty()) << "no texel of that class";
+  target.guides[0].name = "tone";
+  EXPECT_TRUE(fit_guides(exemplars, target, 4, 0).empty());
 }
 
 // What a guide explains: all of the step between two halves, and of their contrast, and nothing of

@@ -63,10 +63,12 @@ TEST_F(ExemplarCheck, TellsWhatATargetAsksFor) {
       AllOf(HasSubstr("class 1: enough: 22 000 pixels need it, 37 120 can be served; only 58 %"),
             HasSubstr("class 5: too few, strokes will repeat: 28 500 pixels need it, 1 856 can be "
                       "served; 7 125 texels would be needed, there are 464"),
+            HasSubstr("altitude costs most"), HasSubstr("guides explain of the paint's variance"),
+            HasSubstr("class 7: no texels of its own, 2 000 pixels copy from class 1"),
             HasSubstr("class 8: no texels at all, but 1 000 pixels need it")));
   const std::string json = check({"--target", target, "--json"}).out;
   EXPECT_THAT(json, AllOf(HasSubstr("\"texels_needed\": 7125"), HasSubstr("\"enough\": false"),
-                          HasSubstr("\"altitude_covered\": null"),
+                          HasSubstr("\"guides\": []"), HasSubstr("\"stand_ins\": []"),
                           HasSubstr("\"excluded_texels\": 640"), HasSubstr("\"checkerboard\": {")));
 }
 
@@ -101,7 +103,7 @@ TEST_F(ExemplarCheck, ThePageShowsPaintsAndWhereTheyAreMissing) {
   for (const std::size_t value : {0, 60, 100, 159, 220}) EXPECT_EQ(texels[value], 0) << value;
   for (const std::size_t value : {0, 30, 127}) EXPECT_GT(asked[value], 0) << value;
   for (const std::size_t value : {128, 255}) EXPECT_EQ(asked[value], 0) << value;
-  EXPECT_THAT(json, HasSubstr("\"altitude_covered\": 0."));
+  EXPECT_THAT(json, HasSubstr("\"covered\": 0."));
 }
 
 TEST_F(ExemplarCheck, RefusesWhatCannotBeMeant) {

@@ -65,10 +65,13 @@ TEST(ExemplarVerdict, SaysWhatServesAndWhatIsEnough) {
   demand.available.pixels = 401;
   EXPECT_THAT(describe_needed_texels(demand),
               AllOf(HasSubstr("too few"), HasSubstr("101 texels would be needed, there are 100")));
-  demand.altitude_covered = 0.9;
+  demand.guides = {{{.name = "altitude", .covered = 0.9, .square = 0.0}, 0.5}};
   EXPECT_THAT(describe_needed_texels(demand), Not(HasSubstr("altitude")));
-  demand.altitude_covered = 0.89;
-  EXPECT_THAT(describe_needed_texels(demand), HasSubstr("only 89 % of its pixels"));
+  demand.guides = {{{.name = "altitude", .covered = 0.89, .square = 0.0}, 12345.6},
+                   {{.name = "tone", .covered = 1.0, .square = 0.0}, 3.0}};
+  EXPECT_THAT(describe_needed_texels(demand),
+              AllOf(HasSubstr("only 89 % of its pixels find texels of their altitude"),
+                    HasSubstr("altitude costs most, 12 345 a pixel"), Not(HasSubstr("tone"))));
 }
 
 TEST(ExemplarVerdict, TextureModelsAreNamedWithWhatTheyPaint) {
@@ -100,7 +103,13 @@ TEST(ExemplarVerdict, TextAndJsonTellTheSame) {
               AllOf(HasSubstr("class 4: enough"),
                     HasSubstr("class 9: no texels at all, but 12 345 pixels need it")));
   EXPECT_THAT(findings_json(all).str(),
-              AllOf(HasSubstr("\"altitude_covered\": null"), HasSubstr("\"pixels\": 12345")));
+              AllOf(HasSubstr("\"guides\": []"), HasSubstr("\"pixels\": 12345")));
+  all.stand_ins.push_back({5, 4, 2000.0});
+  all.explained.push_back({.name = "tone", .explained = 0.34, .difference = 900.0});
+  EXPECT_THAT(findings_text(all),
+              AllOf(HasSubstr("class 5: no texels of its own, 2 000 pixels copy from class 4"),
+                    HasSubstr("guides explain of the paint's variance: tone 34 %")));
+  EXPECT_THAT(findings_json(all).str(), HasSubstr("\"copies_from\": 4"));
 }
 
 TEST(ExemplarReportPage, ShowsThePaintingItsClassesAndCharts) {
