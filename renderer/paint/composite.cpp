@@ -50,8 +50,8 @@ glm::vec3 carried_over(glm::vec3 texel, const glm::vec3* its_base, glm::vec3 bas
                        const Residual& residual, LandCoverClass shown) {
   if (its_base == nullptr) return texel;
   if (has_trait(shown, ClassTrait::icy)) return base + softly(texel - *its_base, snow_strokes_max);
-  return texel + (shown == LandCoverClass::rock ? residual.at_least(rock_residual) : residual)
-                     .of(base - *its_base);
+  return texel +
+         (shown == LandCoverClass::rock ? Residual(rock_residual) : residual).of(base - *its_base);
 }
 
 glm::vec3 below_air(glm::vec3 paint, glm::vec3 base, const Grid<float>& haze, std::size_t i) {
@@ -144,7 +144,7 @@ void lay_even_paint(Grid<glm::vec3>& picture, const SeamPaint& paint,
       if (paint.made[i] == 0) continue;
       // As in carried_over: in even light snow's strokes are already limited.
       const bool whole = has_trait(shown[i], ClassTrait::icy) || shown[i] == LandCoverClass::rock;
-      const Residual share = whole ? residual.at_least(rock_residual) : residual;
+      const Residual share = whole ? Residual(rock_residual) : residual;
       picture[i] = below_air(paint.even[i] + share.of(target_base[i] - even_grey), target_base[i],
                              target_haze, i);
     }

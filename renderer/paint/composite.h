@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "base/grid.h"
@@ -25,10 +24,6 @@ struct Residual {
   double lightness = 0.75;
   Residual(double both) : colour(both), lightness(both) {}
   Residual(double of_colour, double of_lightness) : colour(of_colour), lightness(of_lightness) {}
-  // At least `share` of both.
-  Residual at_least(double share) const {
-    return {std::max(colour, share), std::max(lightness, share)};
-  }
   glm::vec3 of(glm::vec3 difference) const {
     const float grey = 0.2126F * difference.x + 0.7152F * difference.y + 0.0722F * difference.z;
     return static_cast<float>(colour) * difference + static_cast<float>(lightness - colour) * grey;

@@ -130,8 +130,8 @@ SynthesisParameters fit_to_paintings(const Scene& scene, const std::vector<Exemp
   constexpr double full_share = 0.1;
   constexpr double full_price = 70000.0;
   constexpr double full_shadow_price = 160000.0;
-  constexpr double least_share = 0.02;       // for a guide that is off by default
-  constexpr std::ptrdiff_t most_guides = 8;  // more are priced one by one, at twice the time
+  constexpr double min_share = 0.02;       // for a guide that is off by default
+  constexpr std::ptrdiff_t max_guides = 8;  // more are priced one by one, at twice the time
   SynthesisParameters parameters = to_synthesis_parameters(scene);
   if (!any_painting(exemplars)) return parameters;
   std::vector<GuideShare> shares = explain_paint(exemplars);
@@ -149,9 +149,9 @@ SynthesisParameters fit_to_paintings(const Scene& scene, const std::vector<Exemp
       continue;
     const bool off = own->second == 0.0;
     if (off &&
-        (share.explained < least_share ||
+        (share.explained < min_share ||
          std::count_if(parameters.weights.begin(), parameters.weights.end(),
-                       [](const auto& weight) { return weight.second > 0.0; }) >= most_guides))
+                       [](const auto& weight) { return weight.second > 0.0; }) >= max_guides))
       continue;
     const double price = (share.name == "shadow" ? full_shadow_price : full_price) *
                          std::min(1.0, share.explained / full_share);

@@ -91,8 +91,8 @@ TEST(CopyPlan, WeightsAndPatchesFollowThePainting) {
   const SynthesisParameters usual = to_synthesis_parameters(scene);
   Exemplar painting = halves({"distance", "valley", "tone"});
   const SynthesisParameters fitted = fit_to_paintings(scene, {painting}, silent_progress());
-  // Values 50 apart in equal numbers: two random ones differ by 2 × 25² × 300 / 299 in the mean
-  // square, at 270 each.
+  // Values 50 apart in equal numbers: the mean square of the difference of two random
+  // ones is 2 × 25² × 300 / 299, at 270 each.
   const double expected = 70000.0 / 270.0 / (1250.0 * 300.0 / 299.0);
   EXPECT_NEAR(weight_of(fitted, "distance"), expected, 1e-9);
   EXPECT_NEAR(weight_of(fitted, "valley"), expected, 1e-9);

@@ -57,6 +57,7 @@ TEST(PackedPlan, GivesTheSameTiles) {
   parameters.reuse = 0.5;
   parameters.copy_cap = 100;
   parameters.neighbourhood = 9;
+  parameters.distance = "normalized";
   parameters.surroundings_of = "all";
   parameters.surroundings = 2;
   parameters.class_dissimilarity = {{{3, 7}, 0.25}};

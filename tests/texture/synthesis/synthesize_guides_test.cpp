@@ -199,8 +199,8 @@ TEST(SynthesizeGuides, APoorExemplarLeavesTheOthersTheirGuides) {
   }
 }
 
-// The price of a lacked guide: values 10 and 30 in equal numbers have variance 100, so two random
-// ones differ by 200 in the mean square, at 270 each.
+// The price of a lacked guide: values 10 and 30 in equal numbers have variance 100, so the mean
+// square of the difference of two random ones is 200, at 270 each.
 TEST(SynthesizeGuides, ALackedGuideCostsARandomDifference) {
   std::vector<Exemplar> both(2);
   for (Exemplar& exemplar : both) {

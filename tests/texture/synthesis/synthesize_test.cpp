@@ -408,6 +408,9 @@ TEST(Synthesize, RefusesWhatItCannotUse) {
   parameters.neighbourhood = 13;
   EXPECT_EQ(kind(good, target, parameters), 2);
   parameters = {};
+  parameters.distance = "cosine";
+  EXPECT_EQ(kind(good, target, parameters), 2);
+  parameters = {};
   parameters.surroundings_of = "some";
   EXPECT_EQ(kind(good, target, parameters), 2);
   parameters = {};
