@@ -130,7 +130,7 @@ SynthesisParameters fit_to_paintings(const Scene& scene, const std::vector<Exemp
   constexpr double full_share = 0.1;
   constexpr double full_price = 70000.0;
   constexpr double full_shadow_price = 160000.0;
-  constexpr double min_share = 0.02;       // for a guide that is off by default
+  constexpr double min_share = 0.02;        // for a guide that is off by default
   constexpr std::ptrdiff_t max_guides = 8;  // more are priced one by one, at twice the time
   SynthesisParameters parameters = to_synthesis_parameters(scene);
   if (!any_painting(exemplars)) return parameters;

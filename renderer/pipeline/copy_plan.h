@@ -30,10 +30,9 @@ std::string fine_print_note(const Scene& scene);
 // Synthesis parameters of a scene; guides that it does not name keep the default.
 SynthesisParameters to_synthesis_parameters(const Scene& scene);
 
-// The same, fitted to the exemplars where the scene is silent: the weight of a
-// guide grows with the share of the paint's variance that it explains, never below its default, and
-// the neighbourhood follows the length of strokes. Noted. Unchanged if
-// the program painted all exemplars.
+// The same, fitted to the exemplars where the scene is silent: the weight of a guide grows with the
+// share of the paint's variance that it explains, never below its default, and the neighbourhood
+// follows the length of strokes. Noted. Unchanged if the program painted all exemplars.
 SynthesisParameters fit_to_paintings(const Scene& scene, const std::vector<Exemplar>& exemplars,
                                      Progress& progress);
 

@@ -145,12 +145,11 @@ void add_blocks(const Exemplar& exemplar, std::vector<Block>& blocks) {
           pure = pure && labels(x + i, y + j) == labels(x, y);
           const Rgb8& here = exemplar.picture(x + i, y + j);
           for (std::size_t c = 0; c < 3; ++c) block.features[c] += here[c];
-          const auto step = [&](int dx, int dy) {
-            return std::abs(quality::sum_of(exemplar.picture.clamped(x + i + dx, y + j + dy)) -
-                            quality::sum_of(here));
-          };
-          block.features[3] += step(1, 0);
-          block.features[4] += step(0, 1);
+          const int sum = quality::sum_of(here);
+          block.features[3] +=
+              std::abs(quality::sum_of(exemplar.picture.clamped(x + i + 1, y + j)) - sum);
+          block.features[4] +=
+              std::abs(quality::sum_of(exemplar.picture.clamped(x + i, y + j + 1)) - sum);
         }
       if (pure) blocks.push_back(block);
     }
