@@ -122,7 +122,7 @@ ExemplarSurvey survey_exemplar(const Exemplar& exemplar) {
 
 namespace {
 
-// Mean R, G, B; mean step of R + G + B to the right and down; the guide.
+// Sums of R, G and B and of the steps of R + G + B to the right and down, and the guide.
 using Features = std::array<double, 6>;
 
 struct Block {
