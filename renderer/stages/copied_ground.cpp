@@ -19,7 +19,7 @@ std::uint32_t sheet_place(int x, int y) {
 
 void shift_water(Grid<glm::vec3>& copied, const CopyPlan& plan, const MatchField& matches,
                  const Grid<LandCoverClass>& shown, const Grid<float>& haze) {
-  const glm::vec3 shift = (1.F - static_cast<float>(plan.residual)) * plan.water_shift;
+  const glm::vec3 shift = plan.water_shift - plan.residual.of(plan.water_shift);
   if (shift == glm::vec3(0.F)) return;
   for (std::size_t i = 0; i < copied.size(); ++i) {
     const std::size_t from = matches[i].exemplar;
