@@ -40,7 +40,8 @@ float air_share(const AirParameters& p, const Palette& palette, double depth_m, 
                 float far, float raised) {
   const auto veil =
       static_cast<float>(unit(haze_share(p, depth_m, altitude_m) * palette.haze_share));
-  const float among_ranges = unit(veil * (1.0F - 0.30F * far * raised) - 0.06F * far * raised);
+  const float crest = std::max(raised, 0.0F);
+  const float among_ranges = unit(veil * (1.0F - 0.30F * far * crest) - 0.06F * far * crest);
   const auto far_share =
       static_cast<float>(std::min(1.0, p.haze / usual_haze * palette.haze_share));
   return among_ranges + far_air * far_share * std::min(far, 1.0F) * (1.0F - among_ranges);

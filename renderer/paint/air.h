@@ -41,7 +41,8 @@ float far_range_share(const AirParameters& parameters, double depth_m, double al
 
 // Share of air with the palette's share applied, 0…1. `far` is farness times the separation of
 // ranges, 0…3; `raised` is the position relative to its surroundings, -1 valley … 1 crest: among
-// far ranges the feet get more air and the crests less.
+// far ranges crests get less air. Feet get no more than level ground at their distance, or the
+// highest mountain, whose foot lies lowest beside it, would float.
 float air_share(const AirParameters& parameters, const Palette& palette, double depth_m,
                 double altitude_m, float far, float raised);
 

@@ -218,7 +218,7 @@ glm::vec3 light_warmth(const Scenery& s, std::size_t i) {
 TerrainEnd end_at(const Scenery& s, std::size_t i, int x, const Patches& patches) {
   const BaseParameters& p = s.parameters;
   if (!(p.air.rim_fade_m > 0.0)) return {};
-  const TerrainEnd end = terrain_end_at(s.guidance.rim_m[i], p.air.rim_fade_m, s.raised(i));
+  const TerrainEnd end = terrain_end_at(s.guidance.rim_m[i], p.air.rim_fade_m);
   if (!p.sides) return end;
   const float side =
       side_share(*p.sides, {.position = glm::dvec2(s.position_m(i)),
@@ -256,6 +256,7 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int x, int y, const Pa
   if (pixel.mist != 0.0F)
     pixel.mist = pixel.mist * far_range_share(p.air, depth, g.altitude_m[i]) *
                  static_cast<float>(s.palette.haze_share);
+  pixel.edge.mist = std::min(pixel.edge.mist, edge_mist_beside(pixel.mist, separation));
   pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
   pixel.end = end_at(s, i, x, patches);
   if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, woods, pixel.air);

@@ -16,8 +16,6 @@ namespace {
 
 constexpr float end_air = 0.86F;     // share of air at the end
 constexpr double dissolving = 0.38;  // the last strip, as a share of the fade
-constexpr float crest_dissolves =
-    0.6F;  // factor on dissolving for ground high above its surroundings
 
 constexpr double side_units = 150.0;    // over which the side of the terrain fades …
 constexpr double side_of_sheet = 0.11;  // … but no more than this share of the sheet's width
@@ -34,9 +32,8 @@ float rim_share(float rim_m, double fade_m) {
 
 }  // namespace
 
-TerrainEnd terrain_end_at(float rim_m, double fade_m, float raised) {
-  return {end_air * rim_share(rim_m, fade_m),
-          rim_share(rim_m, dissolving * fade_m) * (1.0F - (1.0F - crest_dissolves) * unit(raised))};
+TerrainEnd terrain_end_at(float rim_m, double fade_m) {
+  return {end_air * rim_share(rim_m, fade_m), rim_share(rim_m, dissolving * fade_m)};
 }
 
 float side_share(const TerrainSides& sides, const SidePlace& place) {
@@ -132,6 +129,12 @@ float hollow_mist(float place, float relief_l_m, float slope_deg, float strength
   const float steep = smoothstep(4.0F, 16.0F, slope_deg);
   return std::min(deepest * strength, max) * (on_floors + (1.0F - on_floors) * steep) *
          (1.0F - smoothstep(-160.0F, 60.0F, relief_l_m)) * place;
+}
+
+float edge_mist_beside(float mist, float strength) {
+  constexpr float thickest = 0.4F;  // of both together
+  const float left = 1.0F - std::min(thickest * strength, 0.8F);
+  return mist < 1.0F ? unit(1.0F - left / (1.0F - mist)) : 0.0F;
 }
 
 float accent_at(const GuidanceBuffers& g, const Grid<float>& log_depth, int x, int y, int step_px) {

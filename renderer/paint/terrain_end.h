@@ -8,16 +8,17 @@
 namespace belvedere {
 
 // The end of the terrain: neither a cliff nor a plain fade. Air thickens towards it, so that
-// mountains turn into blue silhouettes with their crests; only the last strip dissolves, low ground
-// before high.
+// mountains turn into blue silhouettes; only the last strip dissolves. Both depend on the distance
+// to the end alone, never on height: along a line of sight towards the end nothing fades more than
+// what stands behind it, so no summit floats over a foot that is gone.
 struct TerrainEnd {
   float air = 0.0F;        // 0…1
   float dissolved = 0.0F;  // 0…1: share of the colour beyond the terrain
 };
 
 // `rim_m`: distance on the ground to the edge of the terrain; `fade_m`: distance over which it
-// fades (> 0); `raised` as in air_share.
-TerrainEnd terrain_end_at(float rim_m, double fade_m, float raised);
+// fades (> 0).
+TerrainEnd terrain_end_at(float rim_m, double fade_m);
 
 // Where terrain ends beside the line of sight, its cut would stand upright in the picture. There
 // it fades over a width of the sheet instead of a distance on the ground, crests as well, along a
@@ -60,6 +61,10 @@ RangeEdge range_edge(float behind, float far, float raised, float strength);
 Grid<float> hollow_mist_places(std::uint64_t seed, glm::ivec2 origin_px, int width, int height,
                                double pixels_per_unit);
 float hollow_mist(float place, float relief_l_m, float slope_deg, float strength);
+
+// The largest share that mist at a range's edge may have where mist in hollows already has `mist`:
+// together they are a veil, so that a far mountain stands on a foot and does not float.
+float edge_mist_beside(float mist, float strength);
 
 // Light on the nearer side of a depth edge, ridges and hollows: -1 hollow … +1 edge. Reads
 // `step_px` to each side, up to three times. The skyline gets no accents: a light rim against the

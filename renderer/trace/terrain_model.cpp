@@ -113,8 +113,8 @@ constexpr double lift_of_side = 0.02;
 constexpr double max_lift_of_side =
     0.03;  // such a body has lost nothing: more would only reach farther
 // m of lift lost per m of ground. Below 1 ground straight before a mountain is never nearer to the
-// end than the mountain; .5 allows lines of sight 60° off that direction.
-constexpr double lift_slope = 0.5;
+// end than the mountain; .25 allows lines of sight 75° off that direction, almost along the edge.
+constexpr double lift_slope = 0.25;
 
 // 1 where the known terrain ends: the border's own posts and the filled voids that reach the
 // border. A filled void inside known terrain is not an edge.

@@ -12,23 +12,16 @@ namespace belvedere {
 namespace {
 
 TEST(TerrainEnd, StandsInAirBeforeItDissolves) {
-  const TerrainEnd inside = terrain_end_at(4000.0F, 4000.0, 0.0F);
+  const TerrainEnd inside = terrain_end_at(4000.0F, 4000.0);
   EXPECT_EQ(inside.air, 0.0F);
   EXPECT_EQ(inside.dissolved, 0.0F);
-  const TerrainEnd centre = terrain_end_at(2000.0F, 4000.0, 0.0F);
+  const TerrainEnd centre = terrain_end_at(2000.0F, 4000.0);
   EXPECT_NEAR(centre.air, 0.43F, 1e-6F);
   EXPECT_EQ(centre.dissolved, 0.0F) << "only the last .38 of the fade";
-  EXPECT_NEAR(terrain_end_at(760.0F, 4000.0, 0.0F).dissolved, 0.5F, 1e-6F);
-  const TerrainEnd end = terrain_end_at(0.0F, 4000.0, 0.0F);
+  EXPECT_NEAR(terrain_end_at(760.0F, 4000.0).dissolved, 0.5F, 1e-6F);
+  const TerrainEnd end = terrain_end_at(0.0F, 4000.0);
   EXPECT_NEAR(end.air, 0.86F, 1e-6F);
   EXPECT_EQ(end.dissolved, 1.0F);
-}
-
-TEST(TerrainEnd, KeepsPartOfACrest) {
-  EXPECT_NEAR(terrain_end_at(0.0F, 4000.0, 1.0F).dissolved, 0.6F, 1e-6F);
-  EXPECT_NEAR(terrain_end_at(0.0F, 4000.0, 0.5F).dissolved, 0.8F, 1e-6F);
-  EXPECT_EQ(terrain_end_at(0.0F, 4000.0, -1.0F).dissolved, 1.0F) << "hollows go as flats do";
-  EXPECT_EQ(terrain_end_at(0.0F, 4000.0, 1.0F).air, terrain_end_at(0.0F, 4000.0, 0.0F).air);
 }
 
 // Data of 10 × 10 km, seen from the south; 10 m a unit.
@@ -52,7 +45,7 @@ TEST(TerrainSides, FadeOverAWidthOfTheSheet) {
 }
 
 TEST(TerrainSides, LeaveNothingOfACrestAtTheCut) {
-  const TerrainEnd crest = terrain_end_at(0.0F, 4000.0, 1.0F);
+  const TerrainEnd crest = terrain_end_at(1000.0F, 4000.0);
   EXPECT_EQ(with_sides(crest, 0.0F, 1.0F).dissolved, crest.dissolved);
   EXPECT_EQ(with_sides(crest, 1.0F, 0.0F).dissolved, 1.0F);
   EXPECT_EQ(with_sides({}, 1.0F, 1.0F).dissolved, 1.0F) << "however ragged the line";
@@ -84,6 +77,15 @@ TEST(RangeEdges, MistLiesOnTheFarSideAndShadeOnTheNear) {
   EXPECT_NEAR(range_edge(9.0F, 0.0F, 1.0F, 1.0F).mist, 0.25F * 0.35F, 1e-6F) << "crests stay clear";
   EXPECT_EQ(range_edge(9.0F, 0.0F, 0.0F, 0.0F).mist, 0.0F);
   EXPECT_NEAR(range_edge(-9.0F, 0.0F, 0.0F, 2.0F).dark, 0.5F, 1e-6F);
+}
+
+TEST(RangeEdges, MistOfHollowsAndEdgesTogetherIsAVeil) {
+  EXPECT_NEAR(edge_mist_beside(0.0F, 1.0F), 0.4F, 1e-6F);
+  EXPECT_NEAR(1.0F - (1.0F - 0.25F) * (1.0F - edge_mist_beside(0.25F, 1.0F)), 0.4F, 1e-6F);
+  EXPECT_EQ(edge_mist_beside(0.5F, 1.0F), 0.0F) << "already thicker";
+  EXPECT_NEAR(edge_mist_beside(0.0F, 3.0F), 0.8F, 1e-6F);
+  EXPECT_EQ(edge_mist_beside(0.0F, 0.0F), 0.0F);
+  EXPECT_EQ(edge_mist_beside(1.0F, 3.0F), 0.0F);
 }
 
 TEST(RangeEdges, AccentsStandOnTheNearerSideAndNeverOnTheSkyline) {

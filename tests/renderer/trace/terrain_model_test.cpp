@@ -169,7 +169,7 @@ Dem hills_with_mountain(double height_m, int summit) {
 
 // Share of a position's colour that the end of the terrain leaves.
 float kept_of(float rim_m, double fade_m) {
-  const TerrainEnd end = terrain_end_at(rim_m, fade_m, 0.0F);
+  const TerrainEnd end = terrain_end_at(rim_m, fade_m);
   return (1.0F - end.air) * (1.0F - end.dissolved);
 }
 
@@ -197,7 +197,7 @@ TEST(TerrainRim, NoGroundFadesMoreThanGroundBehindIt) {
   const double fade_m = fade_of_side * rim_side_m;
   for (const int summit : {2, 12, 40}) {
     const Grid<float> rim = rim_distance(hills_with_mountain(3000.0, summit));
-    for (const double aslant : {-0.9, -0.4, 0.0, 0.4, 0.9})
+    for (const double aslant : {-2.5, -0.9, -0.4, 0.0, 0.4, 0.9, 2.5})
       for (int from = 100; from < 200; from += 3) {
         float nearer = 1.0F;
         for (int step = 0; step < 100; ++step) {
