@@ -65,12 +65,52 @@ Grid<float> flood_from_rim(const Grid<float>& altitude_m) {
   return level_m;
 }
 
+// A flood of level ground follows its bed: the depth of a filled hollow, and on true flats the way
+// from higher ground (Barnes, Lehman & Mulla 2014), so that water keeps to the middle. In ranks of
+// the root of the depth: exact, and fine where ground is shallow.
+constexpr std::uint8_t most_inland = 12;  // cells
+constexpr float inland_m = 0.05F;         // depth per cell from higher ground
+constexpr float ranks_a_root = 16.F;
+constexpr std::size_t bed_ranks = 256;
+
+// Cells between level ground (no_way) and the nearest higher ground, from 1, at most `most_inland`.
+Grid<std::uint8_t> find_inland(const Grid<float>& level_m, const Grid<std::uint8_t>& towards) {
+  const int width = level_m.width();
+  const int height = level_m.height();
+  Grid<std::uint8_t> inland(width, height, 0);
+  std::vector<std::vector<std::uint32_t>> edges(static_cast<std::size_t>(height));
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t cell = level_m.index(x, y);
+      if (towards[cell] != no_way) continue;
+      bool beside = false;
+      each_neighbour(width, height, cell, [&](std::size_t, std::size_t other) {
+        beside = beside || level_m[other] > level_m[cell];
+      });
+      inland[cell] = beside ? 1 : most_inland;
+      if (beside) edges[static_cast<std::size_t>(y)].push_back(static_cast<std::uint32_t>(cell));
+    }
+  });
+  std::vector<std::uint32_t> wave;
+  for (const std::vector<std::uint32_t>& row : edges)
+    wave.insert(wave.end(), row.begin(), row.end());
+  for (std::size_t i = 0; i < wave.size(); ++i) {
+    const auto next = static_cast<std::uint8_t>(inland[wave[i]] + 1);
+    each_neighbour(width, height, wave[i], [&](std::size_t, std::size_t other) {
+      if (inland[other] <= next || level_m[other] != level_m[wave[i]]) return;
+      inland[other] = next;
+      wave.push_back(static_cast<std::uint32_t>(other));
+    });
+  }
+  return inland;
+}
+
 // Flow directions of a flooded terrain: a neighbour's number, or drains_out. Sloping cells drain to
 // the steepest neighbour, also inwards from the border; other border cells leave the grid. Level
-// ground drains to the outlets from which a flood at constant level reaches it first: outlet after
-// outlet, in the order of their cells, breadth first. So no path leads upwards, and there are no
-// cycles.
-Grid<std::uint8_t> find_flow_directions(const Grid<float>& level_m) {
+// ground drains back along a flood from all its outlets, which always takes the deepest cell that
+// it has reached: down the course of the valley that a hollow's dam closes, and along the middle of
+// a flat, not straight across. So no path leads upwards, and there are no cycles.
+Grid<std::uint8_t> find_flow_directions(const Grid<float>& level_m, const Grid<float>& altitude_m) {
   const int width = level_m.width();
   const int height = level_m.height();
   Grid<std::uint8_t> towards(width, height, no_way);
@@ -105,18 +145,34 @@ Grid<std::uint8_t> find_flow_directions(const Grid<float>& level_m) {
       if (beside) outlets[static_cast<std::size_t>(y)].push_back(static_cast<std::uint32_t>(cell));
     }
   });
-  std::vector<std::uint32_t> wave;
-  for (const std::vector<std::uint32_t>& row : outlets) {
-    for (const std::uint32_t outlet : row) {
-      wave.assign(1, outlet);
-      for (std::size_t i = 0; i < wave.size(); ++i) {
-        each_neighbour(width, height, wave[i], [&](std::size_t k, std::size_t other) {
-          if (towards[other] != no_way || level_m[other] != level_m[outlet]) return;
-          towards[other] = static_cast<std::uint8_t>(7 - k);
-          wave.push_back(static_cast<std::uint32_t>(other));
-        });
-      }
+  const Grid<std::uint8_t> inland = find_inland(level_m, towards);
+  // Cells that the flood has reached, by the rank of their bed, in the order of their arrival.
+  std::array<std::vector<std::uint32_t>, bed_ranks> reached;
+  std::array<std::size_t, bed_ranks> taken{};
+  std::size_t deepest = 0;
+  const auto flood_around = [&](std::size_t cell) {
+    each_neighbour(width, height, cell, [&](std::size_t k, std::size_t other) {
+      if (towards[other] != no_way || level_m[other] != level_m[cell]) return;
+      towards[other] = static_cast<std::uint8_t>(7 - k);
+      const float bed_m =
+          level_m[other] - altitude_m[other] + inland_m * static_cast<float>(inland[other]);
+      const auto rank =
+          std::min(bed_ranks - 1, static_cast<std::size_t>(ranks_a_root * std::sqrt(bed_m)));
+      reached[rank].push_back(static_cast<std::uint32_t>(other));
+      deepest = std::max(deepest, rank);
+    });
+  };
+  for (const std::vector<std::uint32_t>& row : outlets)
+    for (const std::uint32_t outlet : row) flood_around(outlet);
+  for (;;) {
+    if (taken[deepest] < reached[deepest].size()) {
+      flood_around(reached[deepest][taken[deepest]++]);
+      continue;
     }
+    reached[deepest].clear();
+    taken[deepest] = 0;
+    if (deepest == 0) break;
+    --deepest;
   }
   return towards;
 }
@@ -264,7 +320,7 @@ Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m,
                                   const std::vector<RiverEntry>& entries) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
-  const Grid<std::uint8_t> towards = find_flow_directions(flood_from_rim(altitude_m));
+  const Grid<std::uint8_t> towards = find_flow_directions(flood_from_rim(altitude_m), altitude_m);
   const auto target_of = [&](std::size_t cell) {
     const Step& step = neighbours[towards[cell]];
     return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + step.x +

@@ -11,10 +11,11 @@ namespace belvedere {
 
 // Catchment area of every cell, km², including the cell itself. A flood from the border
 // (spill_level.h) fills hollows up to their outlet, so that every cell drains; then each cell flows
-// to the neighbour of steepest descent (D8), and across filled hollows and flats back along the
-// flood. Values grow strictly downstream, so they also give the flow direction. Ground outside the
-// grid is unknown: a river that enters at the border begins there, unless it is among the entries,
-// whose areas count as whole cells. Cells finite; fewer than 2^31 cells.
+// to the neighbour of steepest descent (D8), through filled hollows along their deepest line, and
+// across flats along their middle. Values grow strictly downstream, so they also give the flow
+// direction. Ground outside the grid is unknown: a river that enters at the border begins there,
+// unless it is among the entries, whose areas count as whole cells. Cells finite; fewer than 2^31
+// cells.
 Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m,
                                   const std::vector<RiverEntry>& entries = {});
 

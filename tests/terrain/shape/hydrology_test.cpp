@@ -29,65 +29,49 @@ Grid<float> rough(int width, int height, std::uint64_t seed) {
                        [&](int x, int y) { return 1000.0 + 50.0 * random_uniform(seed, x, y); });
 }
 
-// The simplest flood: one heap for all cells except those of hollows, which are taken in the order
-// in which they are found; then steepest descent where the flooded surface falls.
-struct PlainFlood {
-  Grid<float> level_m;
-  Grid<double> cells;  // that drain through each
-};
+// Calls f(index, diagonal) for the neighbours of a cell.
+void each_beside(const Grid<float>& grid, int x, int y, auto&& f) {
+  for (int v = y - 1; v <= y + 1; ++v)
+    for (int u = x - 1; u <= x + 1; ++u)
+      if ((u != x || v != y) && grid.contains(u, v)) f(grid.index(u, v), u != x && v != y);
+}
 
-PlainFlood flood_plainly(const Grid<float>& altitude_m) {
+// The simplest flood: one heap for all cells.
+Grid<float> flood_plainly(const Grid<float>& altitude_m) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
-  PlainFlood flood{altitude_m, Grid<double>(width, height, 1.0)};
-  Grid<int> towards(width, height, -2);
+  Grid<float> level_m = altitude_m;
+  Grid<std::uint8_t> wet(width, height, 0);
   std::set<std::pair<float, std::size_t>> rising;
-  std::vector<std::size_t> order;
   for (const auto [x, y] : test::cells(width, height)) {
     if (x > 0 && y > 0 && x < width - 1 && y < height - 1) continue;
-    towards(x, y) = -1;
+    wet(x, y) = 1;
     rising.emplace(altitude_m(x, y), altitude_m.index(x, y));
   }
-  const auto each = [&](std::size_t cell, auto&& f) {
-    const int x = static_cast<int>(cell) % width;
-    const int y = static_cast<int>(cell) / width;
-    for (int v = y - 1; v <= y + 1; ++v)
-      for (int u = x - 1; u <= x + 1; ++u)
-        if ((u != x || v != y) && altitude_m.contains(u, v))
-          f(altitude_m.index(u, v), u != x && v != y);
-  };
-  for (std::size_t next = 0; next < order.size() || !rising.empty(); ++next) {
-    if (next == order.size()) {
-      order.push_back(rising.begin()->second);
-      rising.erase(rising.begin());
-    }
-    const std::size_t cell = order[next];
-    each(cell, [&](std::size_t other, bool) {
-      if (towards[other] != -2) return;
-      towards[other] = static_cast<int>(cell);
-      if (flood.level_m[other] <= flood.level_m[cell]) {
-        flood.level_m[other] = flood.level_m[cell];
-        order.push_back(other);
-      } else {
-        rising.emplace(flood.level_m[other], other);
-      }
+  while (!rising.empty()) {
+    const std::size_t cell = rising.begin()->second;
+    rising.erase(rising.begin());
+    const int at = static_cast<int>(cell);
+    each_beside(altitude_m, at % width, at / width, [&](std::size_t other, bool) {
+      if (wet[other] != 0) return;
+      wet[other] = 1;
+      level_m[other] = std::max(level_m[other], level_m[cell]);
+      rising.emplace(level_m[other], other);
     });
   }
-  for (std::size_t cell = 0; cell < altitude_m.size(); ++cell) {
-    float steepest = 0.F;
-    each(cell, [&](std::size_t other, bool diagonal) {
-      const float fall = flood.level_m[cell] - flood.level_m[other];
-      const float slope = diagonal ? fall * 0.70710678F : fall;
-      if (slope > steepest) {
-        steepest = slope;
-        towards[cell] = static_cast<int>(other);
-      }
-    });
-  }
-  for (auto cell = order.rbegin(); cell != order.rend(); ++cell)
-    if (towards[*cell] >= 0)
-      flood.cells[static_cast<std::size_t>(towards[*cell])] += flood.cells[*cell];
-  return flood;
+  return level_m;
+}
+
+// The steepest neighbour of a cell, or the cell itself.
+std::size_t steepest_of(const Grid<float>& level_m, int x, int y) {
+  float steepest = 0.F;
+  std::size_t to = level_m.index(x, y);
+  each_beside(level_m, x, y, [&](std::size_t other, bool diagonal) {
+    const float fall = level_m(x, y) - level_m[other];
+    const float slope = diagonal ? fall * 0.70710678F : fall;
+    if (slope > steepest) steepest = slope, to = other;
+  });
+  return to;
 }
 
 TEST(FlowAccumulation, IsThatOfAPlainFlood) {
@@ -102,14 +86,65 @@ TEST(FlowAccumulation, IsThatOfAPlainFlood) {
              (seed == 4 ? 1040.F : 0.F);
         if (step > 0.F) z = step * std::floor(z / step);
       }
-      const PlainFlood plain = flood_plainly(ground);
-      EXPECT_EQ(fill_hollows(ground), plain.level_m) << seed << ' ' << step;
+      const Grid<float> level = flood_plainly(ground);
+      EXPECT_EQ(fill_hollows(ground), level) << seed << ' ' << step;
+      // Where ground falls, a cell has its own rain and that of those that fall into it; level
+      // ground gives its water on to some of them. All leaves where nothing at the border is lower.
       const Grid<float> area = flow_accumulation_km2(ground, 1000.0);
+      Grid<double> fallen(83, 61, 1.0);
+      Grid<std::uint8_t> beside_level(83, 61, 0);
+      double gone = 0.0;
+      for (const auto [x, y] : test::cells(83, 61)) {
+        const std::size_t cell = area.index(x, y);
+        const std::size_t to = steepest_of(level, x, y);
+        if (to != cell) {
+          fallen[to] += static_cast<double>(area[cell]);
+        } else if (x == 0 || y == 0 || x == 82 || y == 60) {
+          gone += static_cast<double>(area[cell]);
+        } else {
+          beside_level[cell] = 1;
+          each_beside(area, x, y, [&](std::size_t other, bool) { beside_level[other] = 1; });
+        }
+      }
       // Values grow downstream by a float's last bit if whole cells do not.
-      for (std::size_t i = 0; i < area.size(); ++i)
-        ASSERT_FLOAT_EQ(area[i], static_cast<float>(plain.cells[i])) << seed << ' ' << step;
+      for (std::size_t i = 0; i < area.size(); ++i) {
+        ASSERT_GE(area[i], fallen[i] * (1.0 - 1e-5)) << seed << ' ' << step;
+        if (beside_level[i] != 0) continue;
+        ASSERT_LE(area[i], fallen[i] * (1.0 + 1e-5)) << seed << ' ' << step;
+      }
+      EXPECT_NEAR(gone, 83 * 61, 0.1) << seed << ' ' << step;
     }
   }
+}
+
+// The column of the largest catchment in a row.
+int wettest_column(const Grid<float>& area, int y) {
+  return static_cast<int>(std::max_element(area.row(y), area.row(y) + area.width()) - area.row(y));
+}
+
+TEST(FlowAccumulation, PassesADamAlongTheCourseOfItsValley) {
+  // A valley that winds by 8 cells every 60, with a dam 60 m high in row 200: the water behind it
+  // covers two bends and their flanks.
+  const auto axis = [](int y) { return 60.0 + 8.0 * std::sin(2.0 * 3.14159265358979 * y / 60.0); };
+  const Grid<float> valley = test::grid_of(121, 300, [&](int x, int y) {
+    const double off = x - axis(y);
+    const double dam = std::abs(y - 200) < 2 ? 60.0 * std::exp(-off * off / 36.0) : 0.0;
+    return 2000.0 - 3.0 * y + 12.0 * std::abs(off) + dam;
+  });
+  const Grid<float> area = flow_accumulation_km2(valley, 60.0);
+  for (int y = 60; y < 298; ++y) EXPECT_NEAR(wettest_column(area, y), axis(y), 1.0) << y;
+}
+
+TEST(FlowAccumulation, CrossesAFlatAlongItsMiddle) {
+  // 17 cells wide and 80 long; water comes in beside its western edge and leaves in the south-east.
+  const Grid<float> ground = test::grid_of(41, 90, [](int x, int y) {
+    if (x == 13 && y < 5) return 102.0 - 0.1 * y;
+    if (x == 27 && y >= 85) return 99.0 - 0.1 * (y - 85);
+    const bool flat = std::abs(x - 20) <= 8 && y >= 5 && y < 85;
+    return flat ? 100.0 : 110.0 + std::abs(x - 20);
+  });
+  const Grid<float> area = flow_accumulation_km2(ground, 1000.0);
+  for (int y = 20; y < 70; ++y) EXPECT_NEAR(wettest_column(area, y), 20, 1) << y;
 }
 
 TEST(FlowAccumulation, OfATiltedPlaneCountsTheCellsAbove) {
