@@ -12,7 +12,9 @@ namespace belvedere {
 // reaches; both are broken by noise. The mean width of these stays, so that a map still reads a
 // river as one line. Sources are narrow. A tributary turns
 // downstream before it enters a wider river. A pure function of lines, widths and seed; ends that
-// join nothing stay where they are.
-std::vector<CoverRiver> with_banks(std::vector<CoverRiver> rivers, std::uint64_t seed);
+// join nothing stay where they are. `winding`: deviation in half widths, 0…2, by which a course
+// winds besides, so that none drawn from cells is straight over more than 20 widths.
+std::vector<CoverRiver> with_banks(std::vector<CoverRiver> rivers, std::uint64_t seed,
+                                   double winding = 0.0);
 
 }  // namespace belvedere

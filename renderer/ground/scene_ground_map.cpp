@@ -377,8 +377,9 @@ std::vector<CoverRiver> with_shores(std::vector<CoverRiver> rivers, const LandCo
   return shores;
 }
 
-// Rivers widened for visibility, with their banks; `fade` instead of breaking into dots.
-std::vector<CoverRiver> widen_rivers(std::vector<CoverRiver> rivers, bool fade,
+// Rivers widened for visibility, with their banks; inferred ones fade instead of breaking into
+// dots, and wind.
+std::vector<CoverRiver> widen_rivers(std::vector<CoverRiver> rivers, bool inferred,
                                      const FeatureStyle& style, const LoadedScene& loaded,
                                      const Dem& dem, const SeenFrom& seen) {
   parallel_ranges<std::size_t>(rivers.size(), 16, [&](std::size_t begin, std::size_t end) {
@@ -386,12 +387,12 @@ std::vector<CoverRiver> widen_rivers(std::vector<CoverRiver> rivers, bool fade,
       const int kind = rivers[i].kind;
       const FeatureKind of_kind =
           kind >= 0 ? style.kinds[static_cast<std::size_t>(kind)] : FeatureKind();
-      rivers[i] =
-          widen_for_view(std::move(rivers[i]), {min_river_px(of_kind, loaded), fade}, dem, seen);
+      rivers[i] = widen_for_view(std::move(rivers[i]), {min_river_px(of_kind, loaded), inferred},
+                                 dem, seen);
     }
   });
   if (!draws_banks(loaded.scene)) return rivers;
-  return with_banks(std::move(rivers), loaded.scene.seed);
+  return with_banks(std::move(rivers), loaded.scene.seed, inferred ? 1.0 : 0.0);
 }
 
 }  // namespace

@@ -56,7 +56,9 @@ std::vector<RiverReach> find_reaches(const Grid<float>& catchment_km2, double mi
   return reaches;
 }
 
-void smooth_reaches(std::vector<RiverReach>& reaches) {
+void smooth_reaches(std::vector<RiverReach>& reaches, const std::vector<double>& leashes) {
+  std::vector<glm::dvec2> cells;
+  for (const RiverReach& reach : reaches) cells.push_back(reach.position);
   for (int pass = 0; pass < smoothing_passes; ++pass) {
     std::vector<RiverReach> next = reaches;
     for (std::size_t i = 0; i < reaches.size(); ++i) {
@@ -65,6 +67,11 @@ void smooth_reaches(std::vector<RiverReach>& reaches) {
       const RiverReach& above = reaches[here.upstream];
       const RiverReach& below = reaches[here.downstream];
       next[i].position = 0.5 * here.position + 0.25 * (above.position + below.position);
+      if (!leashes.empty()) {
+        const glm::dvec2 off = next[i].position - cells[i];
+        const double far = glm::length(off);
+        if (far > leashes[i]) next[i].position = cells[i] + off * (leashes[i] / far);
+      }
       next[i].half_width_m =
           0.5 * here.half_width_m + 0.25 * (above.half_width_m + below.half_width_m);
     }
@@ -89,6 +96,8 @@ constexpr std::size_t end_cells = 20;
 constexpr std::size_t across_cells = 5;
 constexpr double of_room =
     0.45;  // share of the room that bends take at twice their standard deviation
+constexpr double relief_leash = 0.8;  // cells by which a line may leave the drainage on relief …
+constexpr double level_leash = 12.0;  // … and on level ground
 // Gaussian noise of standard deviation s crosses 0 every 4.4 s, so a full bend is 8.9 s long.
 struct Swing {
   double sigma_widths;  // of half the drawn width
@@ -155,6 +164,11 @@ std::vector<double> room_along(const RiverLine& river, const Grid<float>& altitu
   return room;
 }
 
+// 0 on relief … 1 where a river has room on level ground.
+double levelness(double room_cells) {
+  return smoothstep((room_cells - rounded_from) / (rounded_to - rounded_from));
+}
+
 }  // namespace
 
 void bend_on_level_ground(RiverLine& river, const Grid<float>& altitude_m,
@@ -165,8 +179,7 @@ void bend_on_level_ground(RiverLine& river, const Grid<float>& altitude_m,
   const std::vector<double> room = room_along(river, altitude_m, cell_m);
   if (std::all_of(room.begin(), room.end(), [](double cells) { return cells < 1.0; })) return;
   std::vector<double> rounded(count);
-  for (std::size_t i = 0; i < count; ++i)
-    rounded[i] = smoothstep((room[i] - rounded_from) / (rounded_to - rounded_from));
+  for (std::size_t i = 0; i < count; ++i) rounded[i] = levelness(room[i]);
   smooth(river.positions, rounding_passes, rounded);
   const std::vector<glm::dvec2> straight = river.positions;
   for (std::size_t i = 0; i < count; ++i) {
@@ -209,9 +222,10 @@ namespace {
 constexpr int into_open_cells = 2;      // a river continues this far into a lake
 constexpr std::size_t fade_cells = 14;  // over which one fades in from dry ground, or out
 // On level ground, D8 lines meet a river at any angle; natural tributaries join obliquely, farther
-// downstream.
-constexpr std::size_t down_cells = 12;
-constexpr std::size_t led_cells = 24;  // length before the mouth over which a river is bent there
+// downstream. On relief the ground leads them, and only the last cells turn.
+constexpr double down_cells = 12.0;
+constexpr double led_cells = 24.0;    // length before the mouth over which a river is bent there
+constexpr double relief_share = 0.2;  // of both on relief
 constexpr std::size_t own_cells =
     10;  // cells before the mouth that ignore the width of the larger river
 
@@ -227,16 +241,19 @@ struct Ends {
   bool comes_in = false, goes_on = false;
 };
 
-// Bends the end of a line, of which `places` points remain and the last lies on the larger river,
-// towards a position some cells farther downstream on that river.
+// Bends the end of a line, the last point of which lies on the larger river, towards a position
+// some cells farther downstream on that river; `level`: 0 on relief … 1 on level ground.
 void lead_mouth(std::vector<glm::dvec2>& positions, const std::vector<RiverReach>& reaches,
-                std::size_t mouth) {
+                std::size_t mouth, double level) {
+  const double share = relief_share + (1.0 - relief_share) * level;
+  const auto down = static_cast<std::size_t>(share * down_cells);
   std::size_t at = mouth;
   for (std::size_t k = 0;
-       k < std::min(down_cells, positions.size() / 3) && reaches[at].downstream != no_reach; ++k)
+       k < std::min(down, positions.size() / 3) && reaches[at].downstream != no_reach; ++k)
     at = reaches[at].downstream;
   const glm::dvec2 way = reaches[at].position - positions.back();
-  const std::size_t led = std::min(led_cells, positions.size() - 1);
+  const std::size_t led =
+      std::min(static_cast<std::size_t>(share * led_cells), positions.size() - 1);
   for (std::size_t k = 0; k < led; ++k) {
     const double near = 1.0 - static_cast<double>(k) / static_cast<double>(led);
     positions[positions.size() - 1 - k] += near * near * way;  // strongest at the mouth
@@ -324,7 +341,16 @@ std::vector<RiverCentreline> infer_rivers_of_ground(
         smoothstep((km2 - parameters.min_km2) / (parameters.full_km2 - parameters.min_km2));
     reach.half_width_m = known_half_width_m(km2) * grown;
   }
-  smooth_reaches(reaches);
+  const double cell_m = 0.5 * (transform.cell_x + transform.cell_y);
+  std::vector<double> level(reaches.size());
+  std::vector<double> leashes(reaches.size());
+  parallel_ranges(reaches.size(), std::size_t{256}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      level[i] = levelness(room_at(altitude_m, reaches[i].position, cell_m));
+      leashes[i] = relief_leash + (level_leash - relief_leash) * level[i];
+    }
+  });
+  smooth_reaches(reaches, leashes);
   const std::vector<JoinedRiver> lines = follow_water(reaches);
   // First every river is bent along its own part; then tributaries are led to the new position of
   // the larger ones.
@@ -352,7 +378,10 @@ std::vector<RiverCentreline> infer_rivers_of_ground(
     for (const std::size_t reach : line.reaches) along.push_back(beds[reach]);
     const Ends ends{at_rim[line.reaches.front()], line.joins || at_rim[line.reaches.back()]};
     std::vector<glm::dvec2>& positions = ways[number];
-    if (line.joins) lead_mouth(positions, reaches, line.reaches.back());
+    if (line.joins) {
+      const std::size_t mouth = line.reaches.back();
+      lead_mouth(positions, reaches, mouth, level[mouth]);
+    }
     const std::size_t before =
         line.reaches.size() - 1 - std::min(line.reaches.size() - 1, own_cells);
     const double widest_m =

@@ -28,11 +28,12 @@ enum class RiverBed {
   open   // a lake or the sea, which it flows into or out of
 };
 
-// Rivers inferred from the terrain: lines along the drainage of a catchment grid, smoothed by some
-// cells, each from its spring to where it flows into a larger one. `bed` gives the role of a cell
-// of the grid. A line ends within two cells of open water, fades in and out over some cells where
-// its bed begins and ends on dry ground, and keeps its width at mouths and at the border of the
-// grid. On level ground it bends (river_bends.h). Grids of one size. Group 0.
+// Rivers inferred from the terrain: lines along the drainage of a catchment grid, smoothed, each
+// from its spring to where it flows into a larger one. On relief a line stays within a cell of the
+// drainage, which is the bottom of its valley; only level ground lets it leave that. `bed` gives
+// the role of a cell of the grid. A line ends within two cells of open water, fades in and out over
+// some cells where its bed begins and ends on dry ground, and keeps its width at mouths and at the
+// border of the grid. Grids of one size. Group 0.
 std::vector<RiverCentreline> infer_rivers_of_ground(
     const Grid<float>& catchment_km2, const Grid<float>& altitude_m, const GeoTransform& transform,
     const std::function<RiverBed(int x, int y)>& bed,
@@ -68,8 +69,9 @@ struct RiverReach {
 // next larger catchment.
 std::vector<RiverReach> find_reaches(const Grid<float>& catchment_km2, double min_km2);
 
-// Moves each cell, and its width, towards the mean of the cells above and below it; springs and
-// mouths are fixed. A tributary follows its mouth, without effect on the main river.
-void smooth_reaches(std::vector<RiverReach>& reaches);
+// Moves each cell, and its width, towards the mean of the cells above and below it, at most as far
+// as its leash (cells; one for each, or none at all); springs and mouths are fixed. A tributary
+// follows its mouth, without effect on the main river.
+void smooth_reaches(std::vector<RiverReach>& reaches, const std::vector<double>& leashes = {});
 
 }  // namespace belvedere

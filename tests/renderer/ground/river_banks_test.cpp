@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -47,6 +48,40 @@ TEST(RiverBanks, KeepTheMeanWidthAndVary) {
   EXPECT_NEAR(m.aside_m, 0.0, 1.5);
   EXPECT_GT(m.varies_m, 1.0);
   EXPECT_LT(m.varies_m, 5.0);
+}
+
+// The longest reach, in widths, from whose chord the line departs by less than an eighth of a
+// width.
+double straightest(const CoverRiver& river, double width_m) {
+  double longest = 0.0;
+  for (std::size_t i = 0; i < river.positions.size(); ++i)
+    for (std::size_t j = i + 2; j < river.positions.size(); ++j) {
+      const glm::dvec2 way = river.positions[j] - river.positions[i];
+      const double length = std::hypot(way.x, way.y);
+      double off = 0.0;
+      for (std::size_t k = i + 1; k < j; ++k) {
+        const glm::dvec2 at = river.positions[k] - river.positions[i];
+        off = std::max(off, std::abs(way.x * at.y - way.y * at.x) / length);
+      }
+      if (off > 0.125 * width_m) break;
+      longest = std::max(longest, length / width_m);
+    }
+  return longest;
+}
+
+TEST(RiverBanks, InferredCoursesAreNowhereStraight) {
+  CoverRiver line;
+  for (int k = 0; k <= 250; ++k) {
+    line.positions.emplace_back(500.0, 8000.0 - 20.0 * k);
+    line.half_width_m.push_back(10.0F);
+  }
+  EXPECT_GT(straightest(with_banks({line}, 1)[0], 20.0), 50.0);
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
+    const CoverRiver river = with_banks({line}, seed, 1.0)[0];
+    EXPECT_LT(straightest(river, 20.0), 20.0) << seed;
+    EXPECT_EQ(river.positions.front(), line.positions.front());
+    for (const glm::dvec2 position : river.positions) EXPECT_NEAR(position.x, 500.0, 26.0) << seed;
+  }
 }
 
 // On a circle that turns left the inner bank is the left one: the line moves outwards.

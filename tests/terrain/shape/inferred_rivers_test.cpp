@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "terrain/shape/hydrology.h"
 #include "tests/grids.h"
 
 namespace belvedere {
@@ -96,7 +97,7 @@ TEST(InferredRivers, EndInLakesAndBeginThereAtTheirWidth) {
   EXPECT_NEAR(centrelines[1].half_width_m.front(), known_half_width_m(112.0), 0.1);
 }
 
-TEST(InferredRivers, FlowAslantIntoTheLargerRiver) {
+TEST(InferredRivers, KeepToTheirCourseWhereTheyFlowIntoALargerRiver) {
   std::vector<RiverCentreline> centrelines =
       infer_rivers_of_ground(waters(200.0, 0.1, true), valley(), valley_transform, everywhere);
   ASSERT_EQ(centrelines.size(), 2U);
@@ -104,10 +105,10 @@ TEST(InferredRivers, FlowAslantIntoTheLargerRiver) {
   const RiverCentreline& brook = brook_first ? centrelines[0] : centrelines[1];
   const double river_x = valley_transform.to_crs(river_column, 0).x;
   EXPECT_NEAR(brook.positions.back().x, river_x, 0.01) << "on its middle";
-  EXPECT_GT(row_of(brook.positions.back()), 104.0) << "farther down than the water of the cells";
-  const glm::dvec2 way = brook.positions.back() - brook.positions[brook.positions.size() - 4];
-  EXPECT_LT(way.y, -0.5 * glm::length(way)) << "down the river as well";
-  EXPECT_GT(way.x, 0.5 * glm::length(way));
+  // Two cells below where its water does, in row 99: the flank is too steep for more.
+  EXPECT_NEAR(row_of(brook.positions.back()), 101.0, 0.1);
+  for (const glm::dvec2 position : brook.positions)
+    EXPECT_NEAR(row_of(position), 100.0, 1.5) << "it does not cross the flank aslant";
   // It keeps its own width to the end, not the larger one's.
   EXPECT_LT(brook.half_width_m.back(), 7.F);
   EXPECT_GT(brook.half_width_m.back(), 2.F);
@@ -129,8 +130,35 @@ TEST(InferredRivers, BendOnLevelGroundAndBrooksFollowThem) {
   for (const glm::dvec2 position : river.positions)
     mouth_m = std::min(mouth_m, glm::length(position - brook.positions.back()));
   EXPECT_LT(mouth_m, 1.0);
+  EXPECT_GT(row_of(brook.positions.back()), 104.0) << "farther down than the water of the cells";
   for (std::size_t i = 1; i < brook.positions.size(); ++i)
     EXPECT_LT(glm::length(brook.positions[i] - brook.positions[i - 1]), 2.5 * valley_cell_m);
+}
+
+// A valley that winds by 8 cells of 60 m every 60, dammed in row 200, whose course is known.
+TEST(InferredRivers, BeginNarrowInTheLineOfTheirValleyAndFollowIt) {
+  const auto axis = [](double y) {
+    return 60.0 + 8.0 * std::sin(2.0 * 3.14159265358979 * y / 60.0);
+  };
+  const Grid<float> ground = test::grid_of(121, 300, [&](int x, int y) {
+    const double off = x - axis(y);
+    const double dam = std::abs(y - 200) < 2 ? 60.0 * std::exp(-off * off / 36.0) : 0.0;
+    return 2000.0 - 3.0 * y + 12.0 * std::abs(off) + dam;
+  });
+  const GeoTransform transform{0.0, 300 * 60.0, 60.0, 60.0};
+  const std::vector<RiverCentreline> rivers =
+      infer_rivers_of_ground(flow_accumulation_km2(ground, 60.0), ground, transform, everywhere);
+  ASSERT_EQ(rivers.size(), 1U);
+  const RiverCentreline& river = rivers[0];
+  EXPECT_LT(river.half_width_m.front(), 0.1F);
+  EXPECT_GT(river.half_width_m.back(), 15.F);
+  for (std::size_t i = 0; i < river.positions.size(); ++i) {
+    const glm::dvec2 cell = transform.to_cell(river.positions[i].x, river.positions[i].y);
+    EXPECT_NEAR(cell.x, axis(cell.y), 1.0) << "row " << cell.y;
+    if (i > 0) {
+      EXPECT_GE(river.half_width_m[i], river.half_width_m[i - 1]);
+    }
+  }
 }
 
 constexpr int bends_size = 400;
@@ -281,6 +309,26 @@ TEST(RiverReaches, LoseTheStairsOfTheGridButNotTheirEnds) {
     }
   for (std::size_t i = 1; i < reaches.size(); ++i)
     EXPECT_LT(std::abs(reaches[i].half_width_m - reaches[i - 1].half_width_m), 1.5);
+}
+
+TEST(RiverReaches, StayOnTheirLeash) {
+  // Down a column, then along a row.
+  Grid<float> km2(80, 80, 0.F);
+  for (int k = 0; k < 40; ++k) {
+    km2(20, k) = 100.F + static_cast<float>(k);
+    km2(20 + k, 40) = 140.F + static_cast<float>(k);
+  }
+  const std::vector<RiverReach> cells = find_reaches(km2, 50.0);
+  const auto moved = [&](const std::vector<double>& leashes) {
+    std::vector<RiverReach> reaches = cells;
+    smooth_reaches(reaches, leashes);
+    double most = 0.0;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      most = std::max(most, glm::length(reaches[i].position - cells[i].position));
+    return most;
+  };
+  EXPECT_GT(moved({}), 1.5);
+  EXPECT_NEAR(moved(std::vector<double>(cells.size(), 0.8)), 0.8, 1e-9);
 }
 
 }  // namespace
