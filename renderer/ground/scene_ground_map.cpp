@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <memory>
 #include <numbers>
@@ -16,9 +17,11 @@
 #include "base/cache/content_hash.h"
 #include "base/error.h"
 #include "base/files/kept_files.h"
+#include "base/filter.h"
 #include "base/masks/polygon.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "renderer/ground/braided_rivers.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/laid_rivers.h"
 #include "renderer/ground/river_banks.h"
@@ -355,23 +358,39 @@ bool draws_banks(const Scene& scene) {
            scene.pixels_per_unit() * max_shore_units < broad_px);
 }
 
-// The shores of rivers and the rivers, the topmost last. `cover` and `own` are the ground without
-// what is drawn for a view.
+// The shores of rivers and the rivers, inferred ones with their braids, the topmost last. `cover`
+// and `own` are the ground without what is drawn for a view.
 std::vector<CoverRiver> with_shores(std::vector<CoverRiver> rivers, const LandCover& cover,
                                     const MapCover& own, const LoadedScene& loaded, const Dem& dem,
-                                    const SeenFrom& seen) {
+                                    const SeenFrom& seen, bool inferred) {
+  constexpr double level_m = 3.0;        // a floor differs by this from its river …
+  constexpr double level_slope = 0.015;  // … and this much per metre of distance
   if (!draws_banks(loaded.scene)) return rivers;
   const double ppu = loaded.scene.pixels_per_unit();
   const auto class_at = [&](glm::dvec2 position) {
     const LandCoverClass known = own.at(position);
     return known != LandCoverClass::sky ? known : cover.cell_at(position.x, position.y);
   };
+  const auto units_per_m = [&](std::size_t i) { return units_across(rivers[i], ppu, dem, seen); };
   std::vector<CoverRiver> shores = river_shores(
-      rivers,
-      {.seed = loaded.scene.seed,
-       .units_per_m = [&](std::size_t i) { return units_across(rivers[i], ppu, dem, seen); },
-       .is_open = [&](glm::dvec2 position) { return has_shores(class_at(position)); },
-       .grows_trees = [&](glm::dvec2 position) { return has_groves(class_at(position)); }});
+      rivers, {.seed = loaded.scene.seed,
+               .units_per_m = units_per_m,
+               .is_open = [&](glm::dvec2 position) { return has_shores(class_at(position)); },
+               .grows_trees = [&](glm::dvec2 position) { return has_groves(class_at(position)); }});
+  const auto altitude = [&](glm::dvec2 position) {
+    const glm::dvec2 cell = dem.transform.to_cell(position.x, position.y);
+    return sample_bilinear(dem.altitude_m, cell.x, cell.y);
+  };
+  if (inferred)
+    rivers =
+        braid_rivers(rivers, {.seed = loaded.scene.seed,
+                              .units_per_m = units_per_m,
+                              .is_floor = [&](glm::dvec2 from, glm::dvec2 to) {
+                                const bool open = own.at(to) == LandCoverClass::water ||
+                                                  has_shores(cover.cell_at(to.x, to.y));
+                                return open && std::abs(altitude(to) - altitude(from)) <=
+                                                   level_m + level_slope * glm::length(to - from);
+                              }});
   shores.insert(shores.end(), std::make_move_iterator(rivers.begin()),
                 std::make_move_iterator(rivers.end()));
   return shores;
@@ -417,7 +436,7 @@ void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem,
     } else {
       rivers = widen_rivers(std::move(rivers), false, read_scene_feature_style(loaded), loaded, dem,
                             *seen);
-      rivers = with_shores(std::move(rivers), cover, *own, loaded, dem, *seen);
+      rivers = with_shores(std::move(rivers), cover, *own, loaded, dem, *seen, false);
       lay_map(cover,
               std::make_shared<const MapCover>(map.areas, std::move(rivers), box.low, box.high),
               own.get());
@@ -451,7 +470,7 @@ void lay_inferred_rivers(LandCover& cover, const LoadedScene& loaded, const Dem&
       std::make_shared<const MapCover>(std::vector<CoverArea>(), rivers, box.low, box.high);
   if (seen == nullptr) return lay_inferred(cover, own);
   rivers = widen_rivers(std::move(rivers), true, style, loaded, dem, *seen);
-  rivers = with_shores(std::move(rivers), cover, *own, loaded, dem, *seen);
+  rivers = with_shores(std::move(rivers), cover, *own, loaded, dem, *seen, true);
   lay_inferred(cover,
                std::make_shared<const MapCover>(std::vector<CoverArea>(), std::move(rivers),
                                                 box.low, box.high),
