@@ -7,10 +7,9 @@
 #include <iterator>
 
 #include "base/math.h"
-#include "base/math_exact.h"
 #include "base/parallel.h"
-#include "base/random.h"
 #include "renderer/ground/laid_rivers.h"
+#include "renderer/ground/river_banks.h"
 
 namespace belvedere {
 namespace {
@@ -82,8 +81,7 @@ std::vector<double> gravel_half_m(const CoverRiver& river, const std::vector<glm
 
 // Noise of a braid, within -1…1.
 double braid_noise(std::uint64_t seed, std::uint64_t part, glm::dvec2 at, double sigma_m) {
-  return std::clamp(
-      gaussian_noise(stream_seed(seed, Stream::river_banks, part), at.x, at.y, sigma_m), -1.0, 1.0);
+  return std::clamp(bank_noise(seed, part, at, sigma_m), -1.0, 1.0);
 }
 
 // Threads at a position: their distances to the left of the line as shares of the gravel, -1…1,
@@ -91,10 +89,7 @@ double braid_noise(std::uint64_t seed, std::uint64_t part, glm::dvec2 at, double
 std::array<double, lanes> lanes_at(std::uint64_t seed, glm::dvec2 at, double sigma_m) {
   std::array<double, lanes> lane{};
   for (std::size_t k = 0; k < lanes; ++k)
-    lane[k] = std::clamp(
-        gaussian_noise(stream_seed(seed, Stream::river_banks, lane_part + k), at.x, at.y, sigma_m) /
-            normal_span,
-        -1.0, 1.0);
+    lane[k] = std::clamp(braid_noise(seed, lane_part + k, at, sigma_m) / normal_span, -1.0, 1.0);
   std::sort(lane.begin(), lane.end());
   const double right = std::max(0.0, lane[1] - lane[0] - closed);
   const double both = right + std::max(0.0, lane[2] - lane[1] - closed);
@@ -117,11 +112,6 @@ std::vector<CoverRiver> braid_river(const CoverRiver& river, const std::vector<d
   const auto first = std::find_if(gravel.begin(), gravel.end(), is_gravel);
   if (first == gravel.end()) return {river};
   const auto last = std::find_if(gravel.rbegin(), gravel.rend(), is_gravel).base();
-  double mean_m = 0.0;
-  for (const float half : river.half_width_m)
-    mean_m += static_cast<double>(half) / static_cast<double>(count);
-  // Fixed to the map: a river whose mean differs a little has the same threads.
-  const double sigma_m = exact::exp2(std::round(exact::log2(meeting * mean_m)));
   std::vector<CoverRiver> out(lanes + 2, river);  // gravel, the line, threads
   out[0].painted_as = LandCoverClass::sand;
   out[0].kind = shore_kind;
@@ -131,6 +121,7 @@ std::vector<CoverRiver> braid_river(const CoverRiver& river, const std::vector<d
        i < static_cast<std::size_t>(last - gravel.begin()); ++i) {
     const glm::dvec2 at = river.positions[i];
     const auto half = static_cast<double>(river.half_width_m[i]);
+    const double sigma_m = meeting * half;
     const auto noise = [&](std::uint64_t part) { return braid_noise(p.seed, part, at, sigma_m); };
     const double belt = gravel[i] * (1.0 - ragged_edge + ragged_edge * noise(edge_part));
     const auto add = [&](CoverRiver& to, double aside, double half_m) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
 
@@ -15,12 +16,12 @@ namespace belvedere {
 namespace {
 
 // Lengths in half widths of the river.
-constexpr double spacing_widths = 1.8;     // of positions
-constexpr double tangent_widths = 2.0;     // over which directions are taken
-constexpr double bend_gain = 10.0;         // of curvature times half width: 1 is a full bend
-constexpr double noise_widths = 5.0;       // deviation of the noise of banks
-constexpr double winding_widths = 4.5;     // the same of the windings
-constexpr std::uint64_t winding_part = 8;  // of the stream; those before are banks and shores
+constexpr double spacing_widths = 1.8;  // of positions
+constexpr double tangent_widths = 2.0;  // over which directions are taken
+constexpr double bend_gain = 10.0;      // of curvature times half width: 1 is a full bend
+constexpr double noise_widths = 5.0;    // deviation of the noise of banks
+constexpr double winding_widths = 4.5;  // the same of the windings
+constexpr std::uint64_t winding_part = 8;
 constexpr double source_widths = 16.0;     // over which a source grows to its width
 constexpr double end_widths = 4.0;         // over which the line returns to its ends
 constexpr double junction_widths = 8.0;    // of the wider river: where a tributary turns
@@ -112,24 +113,17 @@ CoverRiver bank_river(CoverRiver river, std::uint64_t seed, double winding) {
   const auto reach =
       static_cast<std::size_t>(std::max(1.0, std::round(tangent_widths * mean_m / step_m)));
   // Noise is smooth over several positions.
-  const auto noise_along = [&](std::uint64_t part, double widths) {
-    std::vector<double> noise;
+  std::array<std::vector<double>, 2> noise;
+  for (std::size_t side = 0; side < 2; ++side)
     for (std::size_t i = 0; i < count + noise_step; i += noise_step) {
       const glm::dvec2 at = line.positions[std::min(i, count - 1)];
-      noise.push_back(std::clamp(
-          gaussian_noise(stream_seed(seed, Stream::river_banks, part), at.x, at.y, widths * mean_m),
-          -2.0, 2.0));
+      noise[side].push_back(std::clamp(gaussian_noise(stream_seed(seed, Stream::river_banks, side),
+                                                      at.x, at.y, noise_widths * mean_m),
+                                       -2.0, 2.0));
     }
-    return noise;
-  };
-  const std::array<std::vector<double>, 3> noise{
-      noise_along(0, noise_widths), noise_along(1, noise_widths),
-      winding > 0.0 ? noise_along(winding_part, winding_widths)
-                    : std::vector<double>(count / noise_step + 2, 0.0)};
-  constexpr std::size_t course = 2;  // of these
-  const auto noise_at = [&](std::size_t of, std::size_t i) {
+  const auto noise_at = [&](std::size_t side, std::size_t i) {
     const std::size_t k = i / noise_step;
-    return glm::mix(noise[of][k], noise[of][k + 1],
+    return glm::mix(noise[side][k], noise[side][k + 1],
                     static_cast<double>(i % noise_step) / static_cast<double>(noise_step));
   };
   CoverRiver out = std::move(river);
@@ -151,8 +145,12 @@ CoverRiver bank_river(CoverRiver river, std::uint64_t seed, double winding) {
     const double right_m = half * (1.0 - inwards(-bend, noise_at(1, i)));
     const double to_end =
         std::min(line.along_m[i], line.along_m.back() - line.along_m[i]) / (end_widths * mean_m);
-    const double moved =
-        (0.5 * (left_m - right_m) + winding * half * noise_at(course, i)) * smoothstep(to_end);
+    const double wound =
+        winding > 0.0
+            ? winding * half *
+                  std::clamp(bank_noise(seed, winding_part, at, winding_widths * half), -2.0, 2.0)
+            : 0.0;
+    const double moved = (0.5 * (left_m - right_m) + wound) * smoothstep(to_end);
     const double grown = static_cast<double>(source_width) +
                          (1.0 - static_cast<double>(source_width)) *
                              smoothstep(line.along_m[i] / (source_widths * mean_m));
@@ -251,6 +249,20 @@ void turn_downstream(CoverRiver& river, const Mouth& mouth) {
 }
 
 }  // namespace
+
+double bank_noise(std::uint64_t seed, std::uint64_t part, glm::dvec2 at, double sigma_m) {
+  constexpr std::uint64_t octaves = 64;  // more than there are, of every part
+  const double octave = exact::log2(std::max(sigma_m, 1.0));
+  const double below = std::floor(octave);
+  const double above = octave - below;
+  const auto of = [&](double power) {
+    const std::uint64_t key = octaves * part + static_cast<std::uint64_t>(power);
+    return gaussian_noise(stream_seed(seed, Stream::river_banks, key), at.x, at.y,
+                          exact::exp2(power));
+  };
+  return ((1.0 - above) * of(below) + above * of(below + 1.0)) /
+         std::sqrt(above * above + (1.0 - above) * (1.0 - above));
+}
 
 std::vector<CoverRiver> with_banks(std::vector<CoverRiver> rivers, std::uint64_t seed,
                                    double winding) {

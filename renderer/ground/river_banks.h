@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "terrain/cover/map_cover.h"
@@ -16,5 +17,10 @@ namespace belvedere {
 // winds besides, so that none drawn from cells is straight over more than 20 widths.
 std::vector<CoverRiver> with_banks(std::vector<CoverRiver> rivers, std::uint64_t seed,
                                    double winding = 0.0);
+
+// Noise of deviation 1, blurred by about sigma_m: octaves fixed to the map, mixed, so that a river
+// whose width changes, or of which a window knows a part, does not slide along it. `part`: > 7,
+// those of banks and shores.
+double bank_noise(std::uint64_t seed, std::uint64_t part, glm::dvec2 at, double sigma_m);
 
 }  // namespace belvedere

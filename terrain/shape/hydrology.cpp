@@ -78,22 +78,16 @@ Grid<std::uint8_t> find_inland(const Grid<float>& level_m, const Grid<std::uint8
   const int width = level_m.width();
   const int height = level_m.height();
   Grid<std::uint8_t> inland(width, height, 0);
-  std::vector<std::vector<std::uint32_t>> edges(static_cast<std::size_t>(height));
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const std::size_t cell = level_m.index(x, y);
-      if (towards[cell] != no_way) continue;
-      bool beside = false;
-      each_neighbour(width, height, cell, [&](std::size_t, std::size_t other) {
-        beside = beside || level_m[other] > level_m[cell];
-      });
-      inland[cell] = beside ? 1 : most_inland;
-      if (beside) edges[static_cast<std::size_t>(y)].push_back(static_cast<std::uint32_t>(cell));
-    }
-  });
   std::vector<std::uint32_t> wave;
-  for (const std::vector<std::uint32_t>& row : edges)
-    wave.insert(wave.end(), row.begin(), row.end());
+  for (std::size_t cell = 0; cell < towards.size(); ++cell) {
+    if (towards[cell] != no_way) continue;
+    bool beside = false;
+    each_neighbour(width, height, cell, [&](std::size_t, std::size_t other) {
+      beside = beside || level_m[other] > level_m[cell];
+    });
+    inland[cell] = beside ? 1 : most_inland;
+    if (beside) wave.push_back(static_cast<std::uint32_t>(cell));
+  }
   for (std::size_t i = 0; i < wave.size(); ++i) {
     const auto next = static_cast<std::uint8_t>(inland[wave[i]] + 1);
     each_neighbour(width, height, wave[i], [&](std::size_t, std::size_t other) {
