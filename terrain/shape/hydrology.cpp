@@ -68,12 +68,12 @@ Grid<float> flood_from_rim(const Grid<float>& altitude_m) {
 // A flood of level ground follows its bed: the depth of a filled hollow, and on true flats the way
 // from higher ground (Barnes, Lehman & Mulla 2014), so that water keeps to the middle. In ranks of
 // the root of the depth: exact, and fine where ground is shallow.
-constexpr std::uint8_t most_inland = 12;  // cells
+constexpr std::uint8_t max_inland = 12;  // cells
 constexpr float inland_m = 0.05F;         // depth per cell from higher ground
 constexpr float ranks_a_root = 16.F;
 constexpr std::size_t bed_ranks = 256;
 
-// Cells between level ground (no_way) and the nearest higher ground, from 1, at most `most_inland`.
+// Cells between level ground (no_way) and the nearest higher ground, from 1, at most `max_inland`.
 Grid<std::uint8_t> find_inland(const Grid<float>& level_m, const Grid<std::uint8_t>& towards) {
   const int width = level_m.width();
   const int height = level_m.height();
@@ -85,7 +85,7 @@ Grid<std::uint8_t> find_inland(const Grid<float>& level_m, const Grid<std::uint8
     each_neighbour(width, height, cell, [&](std::size_t, std::size_t other) {
       beside = beside || level_m[other] > level_m[cell];
     });
-    inland[cell] = beside ? 1 : most_inland;
+    inland[cell] = beside ? 1 : max_inland;
     if (beside) wave.push_back(static_cast<std::uint32_t>(cell));
   }
   for (std::size_t i = 0; i < wave.size(); ++i) {
