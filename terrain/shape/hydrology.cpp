@@ -69,7 +69,7 @@ Grid<float> flood_from_rim(const Grid<float>& altitude_m) {
 // from higher ground (Barnes, Lehman & Mulla 2014), so that water keeps to the middle. In ranks of
 // the root of the depth: exact, and fine where ground is shallow.
 constexpr std::uint8_t max_inland = 12;  // cells
-constexpr float inland_m = 0.05F;         // depth per cell from higher ground
+constexpr float inland_m = 0.05F;        // depth per cell from higher ground
 constexpr float ranks_a_root = 16.F;
 constexpr std::size_t bed_ranks = 256;
 
