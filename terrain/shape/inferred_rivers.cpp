@@ -229,6 +229,86 @@ constexpr double relief_share = 0.2;  // of both on relief
 constexpr std::size_t own_cells =
     10;  // cells before the mouth that ignore the width of the larger river
 
+// On a level floor D8 lines run side by side, where water would have joined long before.
+constexpr int beside_cells = 12;              // so near a smaller river joins a larger one …
+constexpr std::size_t min_beside_cells = 24;  // … if it would run on for so long by itself
+
+bool level_between(const Grid<float>& altitude_m, glm::dvec2 from, glm::dvec2 to, double cell_m) {
+  const auto altitude = [&](glm::dvec2 at) {
+    return static_cast<double>(altitude_m.clamped(static_cast<int>(std::lround(at.x)),
+                                                  static_cast<int>(std::lround(at.y))));
+  };
+  const double length = glm::length(to - from);
+  for (double away = 1.0; away <= length; away += 1.0)
+    if (std::abs(altitude(from + (to - from) * (away / length)) - altitude(from)) >
+        level_m + level_slope * away * cell_m)
+      return false;
+  return true;
+}
+
+// Links each river that runs beside a larger one on level ground to it, where it first comes near.
+// Its own cells farther down are given up, as far as no other river flows into them.
+void join_beside(std::vector<RiverReach>& reaches, const Grid<float>& altitude_m, double cell_m) {
+  Grid<std::int32_t> number(altitude_m.width(), altitude_m.height(), -1);
+  std::vector<std::size_t> second(reaches.size(), no_reach);  // upstream, after the largest
+  const auto number_at = [&](std::size_t i) -> std::int32_t& {
+    return number(static_cast<int>(reaches[i].position.x), static_cast<int>(reaches[i].position.y));
+  };
+  for (std::size_t i = 0; i < reaches.size(); ++i) {
+    number_at(i) = static_cast<std::int32_t>(i);
+    const std::size_t below = reaches[i].downstream;
+    if (below != no_reach && reaches[below].upstream != i &&
+        (second[below] == no_reach ||
+         reaches[second[below]].catchment_km2 < reaches[i].catchment_km2))
+      second[below] = i;
+  }
+  std::vector<std::size_t> way_of(reaches.size(), no_reach);  // the spring that last came past
+  const auto larger_beside = [&](std::size_t at, std::size_t spring) {
+    std::size_t nearest = no_reach;
+    double nearest_cells = beside_cells + 0.5;
+    const auto x = static_cast<int>(reaches[at].position.x);
+    const auto y = static_cast<int>(reaches[at].position.y);
+    for (int v = y - beside_cells; v <= y + beside_cells; ++v)
+      for (int u = x - beside_cells; u <= x + beside_cells; ++u) {
+        if (!number.contains(u, v) || number(u, v) < 0) continue;
+        const auto other = static_cast<std::size_t>(number(u, v));
+        const double away = glm::length(reaches[other].position - reaches[at].position);
+        if (away >= nearest_cells || way_of[other] == spring ||
+            reaches[other].catchment_km2 <= reaches[at].catchment_km2 ||
+            !level_between(altitude_m, reaches[at].position, reaches[other].position, cell_m))
+          continue;
+        nearest = other;
+        nearest_cells = away;
+      }
+    return nearest;
+  };
+  for (std::size_t spring = 0; spring < reaches.size(); ++spring) {
+    if (reaches[spring].upstream != no_reach) continue;
+    std::vector<std::size_t> own{spring};  // down to its mouth, which is that of a larger river
+    bool mouth = false;
+    way_of[spring] = spring;
+    for (std::size_t at = spring; reaches[at].downstream != no_reach;) {
+      const std::size_t below = reaches[at].downstream;
+      mouth = mouth || reaches[below].upstream != at;
+      if (!mouth) own.push_back(below);
+      way_of[below] = spring;
+      at = below;
+    }
+    for (std::size_t k = 0; k + min_beside_cells < own.size(); ++k) {
+      const std::size_t to = larger_beside(own[k], spring);
+      if (to == no_reach) continue;
+      reaches[own[k]].downstream = to;
+      if (second[to] == no_reach) second[to] = own[k];
+      for (++k; k < own.size() && second[own[k]] == no_reach; ++k) {
+        number_at(own[k]) = -1;
+        reaches[own[k]].upstream = reaches[own[k]].downstream = no_reach;
+      }
+      if (k < own.size()) reaches[own[k]].upstream = second[own[k]];
+      break;
+    }
+  }
+}
+
 // A river as the cells of its reaches, downstream; the last one may belong to the larger river it
 // flows into.
 struct JoinedRiver {
@@ -342,6 +422,7 @@ std::vector<RiverCentreline> infer_rivers_of_ground(
     reach.half_width_m = known_half_width_m(km2) * grown;
   }
   const double cell_m = 0.5 * (transform.cell_x + transform.cell_y);
+  join_beside(reaches, altitude_m, cell_m);
   std::vector<double> level(reaches.size());
   std::vector<double> leashes(reaches.size());
   parallel_ranges(reaches.size(), std::size_t{256}, [&](std::size_t begin, std::size_t end) {

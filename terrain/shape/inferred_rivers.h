@@ -30,7 +30,8 @@ enum class RiverBed {
 
 // Rivers inferred from the terrain: lines along the drainage of a catchment grid, smoothed, each
 // from its spring to where it flows into a larger one. On relief a line stays within a cell of the
-// drainage, which is the bottom of its valley; only level ground lets it leave that. `bed` gives
+// drainage, which is the bottom of its valley; only level ground lets it leave that, and
+// there a river that runs beside a larger one joins it. `bed` gives
 // the role of a cell of the grid. A line ends within two cells of open water, fades in and out over
 // some cells where its bed begins and ends on dry ground, and keeps its width at mouths and at the
 // border of the grid. Grids of one size. Group 0.

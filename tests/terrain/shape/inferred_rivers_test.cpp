@@ -135,6 +135,30 @@ TEST(InferredRivers, BendOnLevelGroundAndBrooksFollowThem) {
     EXPECT_LT(glm::length(brook.positions[i] - brook.positions[i - 1]), 2.5 * valley_cell_m);
 }
 
+TEST(InferredRivers, JoinALargerOneBesideThemOnAFloorButNotBehindARidge) {
+  // A brook comes from the west along row 20, runs down eight cells beside the river, and reaches
+  // it in row 121.
+  Grid<float> km2 = waters(200.0, 0.1);
+  for (int x = 5; x < 52; ++x) km2(x, 20) = 25.F + 0.1F * static_cast<float>(x);
+  for (int y = 20; y <= 120; ++y) km2(52, y) = 31.F + 0.1F * static_cast<float>(y);
+  for (int x = 53; x < river_column; ++x) km2(x, 121) = 44.F + 0.1F * static_cast<float>(x - 53);
+  const auto end_row = [&](const Grid<float>& ground) {
+    const std::vector<RiverCentreline> rivers =
+        infer_rivers_of_ground(km2, ground, valley_transform, everywhere);
+    EXPECT_EQ(rivers.size(), 2U);
+    double row = 0.0;
+    for (const RiverCentreline& river : rivers)
+      if (river.half_width_m.back() < 12.F) row = row_of(river.positions.back());
+    return row;
+  };
+  const double joined = end_row(Grid<float>(121, rows, 500.F));
+  EXPECT_GT(joined, 15.0);
+  EXPECT_LT(joined, 50.0);
+  const Grid<float> ridge =
+      test::grid_of(121, rows, [](int x, int) { return x == 56 ? 520 : 500; });
+  EXPECT_GT(end_row(ridge), 110.0);
+}
+
 // A valley that winds by 8 cells of 60 m every 60, dammed in row 200, whose course is known.
 TEST(InferredRivers, BeginNarrowInTheLineOfTheirValleyAndFollowIt) {
   const auto axis = [](double y) {
