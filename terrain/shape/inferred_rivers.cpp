@@ -300,8 +300,10 @@ void join_beside(std::vector<RiverReach>& reaches, const Grid<float>& altitude_m
       reaches[own[k]].downstream = to;
       if (second[to] == no_reach) second[to] = own[k];
       for (++k; k < own.size() && second[own[k]] == no_reach; ++k) {
+        const std::size_t below = std::exchange(reaches[own[k]].downstream, no_reach);
+        reaches[own[k]].upstream = no_reach;
         number_at(own[k]) = -1;
-        reaches[own[k]].upstream = reaches[own[k]].downstream = no_reach;
+        if (below != no_reach && second[below] == own[k]) second[below] = no_reach;  // its mouth
       }
       if (k < own.size()) reaches[own[k]].upstream = second[own[k]];
       break;
