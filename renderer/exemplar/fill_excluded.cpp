@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "base/filter.h"
 #include "base/masks/label_blur.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/pixel_rect.h"
+#include "renderer/exemplar/classes_by_paint.h"
 #include "renderer/image/srgb.h"
+#include "texture/segment/segment.h"
 #include "texture/statistical/clique_model.h"
 #include "texture/statistical/learn_texture.h"
 #include "texture/statistical/make_texture.h"
@@ -54,36 +58,23 @@ void spread_classes(Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& exclud
   }
 }
 
-// Bounding boxes of the excluded areas, group by group, and the group of each pixel, from 1.
+// Excluded areas that are filled together: 1 in `joined`, by patch, with their bounding boxes
+// (empty for patches of what is not excluded).
 struct Groups {
-  Grid<std::uint16_t> of;
+  LabelPatches<std::uint8_t> joined;
   std::vector<PixelRect> boxes;
 };
 
 Groups find_groups(const Grid<std::uint8_t>& excluded) {
   const Grid<std::uint8_t> joined = widened(excluded, joined_px);
-  Groups groups{Grid<std::uint16_t>(joined.width(), joined.height()), {}};
-  std::vector<std::pair<int, int>> front;
-  constexpr std::size_t max = 4096;  // later areas belong to the last group
+  Groups groups{find_patches(joined, [](std::uint8_t) { return false; }), {}};
+  groups.boxes.resize(groups.joined.sizes.size());
   for (int y = 0; y < joined.height(); ++y)
     for (int x = 0; x < joined.width(); ++x) {
-      if (joined(x, y) == 0 || groups.of(x, y) != 0) continue;
-      if (groups.boxes.size() < max) groups.boxes.push_back({x, y, x, y});
-      PixelRect& box = groups.boxes.back();
-      const auto number = static_cast<std::uint16_t>(groups.boxes.size());
-      groups.of(x, y) = number;
-      front.emplace_back(x, y);
-      while (!front.empty()) {
-        const auto [u, v] = front.back();
-        front.pop_back();
-        box = {std::min(box.x0, u), std::min(box.y0, v), std::max(box.x1, u + 1),
-               std::max(box.y1, v + 1)};
-        for (const auto& [i, j] : {std::pair{u - 1, v}, {u + 1, v}, {u, v - 1}, {u, v + 1}})
-          if (joined.contains(i, j) && joined(i, j) != 0 && groups.of(i, j) == 0) {
-            groups.of(i, j) = number;
-            front.emplace_back(i, j);
-          }
-      }
+      if (joined(x, y) == 0) continue;
+      PixelRect& box = groups.boxes[groups.joined.of_cell(x, y)];
+      if (box.empty()) box = {x, y, x, y};
+      box = {std::min(box.x0, x), box.y0, std::max(box.x1, x + 1), y + 1};
     }
   return groups;
 }
@@ -148,7 +139,9 @@ FilledPaint fill_excluded(const Grid<glm::vec3>& picture, const Grid<std::uint8_
   progress.begin("filling excluded areas", static_cast<double>(groups.boxes.size()));
   for (std::size_t g = 0; g < groups.boxes.size(); ++g) {
     const PixelRect box = groups.boxes[g];
-    const auto within = [&](std::size_t i) { return excluded[i] != 0 && groups.of[i] == g + 1; };
+    const auto within = [&](std::size_t i) {
+      return excluded[i] != 0 && groups.joined.of_cell[i] == g;
+    };
     std::array<std::size_t, 256> wanted{};
     for (int y = box.y0; y < box.y1; ++y)
       for (int x = box.x0; x < box.x1; ++x)
@@ -181,6 +174,169 @@ FilledPaint fill_excluded(const Grid<glm::vec3>& picture, const Grid<std::uint8_
         }
     }
     progress.advance(1.0);
+  }
+  return paint;
+}
+
+namespace {
+
+using Mask = Grid<std::uint8_t>;
+
+constexpr std::size_t max_kinds = 4;  // of ground around a group
+constexpr std::size_t min_kind_texels = 2 * min_crop_texels;
+constexpr double tone_per_px = .25;  // sigma of the tone, per half width of what is removed, …
+constexpr double min_tone_px = 4.0;  // … and at least
+constexpr double border_px = 1.0;    // sigma of the borders of kinds
+constexpr float min_seen = 1e-4F;    // share of a blur below which it tells nothing
+constexpr float mid_grey = .5F;
+
+// The kinds of ground of the known pixels: as many segments as there is enough paint of all to
+// learn from; unused_label elsewhere, or everywhere if there is too little for one.
+Mask find_kinds(Grid<glm::vec3> picture, const Mask& known) {
+  Mask kinds(picture.width(), picture.height(), unused_label);
+  if (std::count(known.begin(), known.end(), 1) < std::ptrdiff_t{min_crop_texels}) return kinds;
+  // What is removed must not become a segment.
+  const Grid<std::int32_t> nearest = nearest_marked(known);
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    picture[i] = picture[static_cast<std::size_t>(nearest[i])];
+  try {
+    const PaintingSegments found = segment_painting(picture, {}, usual_theta, "surroundings");
+    for (std::size_t wanted = max_kinds; wanted > 1; --wanted) {
+      const Partition groups = cut_tree(found.tree, wanted);
+      std::vector<std::size_t> count(wanted);
+      for (std::size_t i = 0; i < kinds.size(); ++i)
+        if (known[i] != 0) ++count[kinds[i] = static_cast<std::uint8_t>(groups[found.pieces[i]])];
+      if (*std::min_element(count.begin(), count.end()) >= min_kind_texels) return kinds;
+    }
+  } catch (const Error&) {
+    // Small, or of a single colour.
+  }
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    if (known[i] != 0) kinds[i] = 0;
+  return kinds;
+}
+
+using Channels = std::vector<Grid<float>>;
+
+// Values where `known` is 1 (0 elsewhere), continued to where it is 0: blurred, from wide blurs to
+// `sigma`, each where half of what it sees or more is known, and fading where less is.
+Channels continue_values(const Channels& values, const Grid<float>& known, double sigma) {
+  Channels out(values.size(), Grid<float>(known.width(), known.height()));
+  double blur = sigma;
+  while (blur < std::max(known.width(), known.height())) blur *= 2.0;
+  for (bool first = true; blur >= sigma; blur /= 2.0, first = false) {
+    const Grid<float> seen = gaussian_blur(known, blur);
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      const Grid<float> sum = gaussian_blur(values[c], blur);
+      for (std::size_t i = 0; i < sum.size(); ++i)
+        if (seen[i] > min_seen)
+          out[c][i] +=
+              (first ? 1.F : std::min(1.F, 2.F * seen[i])) * (sum[i] / seen[i] - out[c][i]);
+    }
+  }
+  return out;
+}
+
+struct Ground {
+  Mask kinds;
+  Grid<glm::vec3> tone;
+};
+
+// The kinds of ground with their borders, and their tones, continued under `open`. Far from what is
+// seen it is less certain where a border runs, so tones blend over a wider strip there.
+Ground continue_ground(const Grid<glm::vec3>& picture, const Mask& seen, const Mask& open,
+                       double sigma) {
+  const Grid<float> none(seen.width(), seen.height());
+  Channels is(max_kinds, none);
+  Grid<float> known = none;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (seen[i] != unused_label) known[i] = is[seen[i]][i] = 1.F;
+  const Channels share = continue_values(is, known, border_px);
+  Ground out{seen, Grid<glm::vec3>(seen.width(), seen.height(), glm::vec3(0.F))};
+  Grid<float> most = none;
+  Grid<float> weights = none;
+  for (std::size_t kind = 0; kind < max_kinds; ++kind) {
+    Channels colours(3, none);
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      for (int c = 0; c < 3; ++c)
+        colours[static_cast<std::size_t>(c)][i] = is[kind][i] * picture[i][c];
+    colours = continue_values(colours, is[kind], sigma);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const float own = open[i] != 0 ? share[kind][i] : is[kind][i];
+      const float weight = own * own * own * own;
+      out.tone[i] += weight * glm::vec3(colours[0][i], colours[1][i], colours[2][i]);
+      weights[i] += weight;
+      if (open[i] == 0 || own <= most[i]) continue;
+      most[i] = own;
+      out.kinds[i] = static_cast<std::uint8_t>(kind);
+    }
+  }
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (weights[i] > 0.F) out.tone[i] /= weights[i];
+  return out;
+}
+
+// Half the width of the widest part of a mask, px.
+double half_width(const Mask& mask) {
+  Mask rest(mask.width(), mask.height());
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = mask[i] == 0 ? 1 : 0;
+  const Grid<std::int32_t> nearest = nearest_marked(rest);
+  double widest = 0.0;
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x) {
+      const double right = x - nearest(x, y) % mask.width();
+      const double down = y - nearest(x, y) / mask.width();
+      widest = std::max(widest, std::sqrt(right * right + down * down));
+    }
+  return widest;
+}
+
+}  // namespace
+
+FilledPaint remove_marked(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& counts,
+                          const Grid<std::uint8_t>& marked, Progress& progress) {
+  FilledPaint paint{picture, {}, 0, 0};
+  Mask usable = counts;
+  for (std::size_t i = 0; i < usable.size(); ++i)
+    if (marked[i] != 0) usable[i] = 0;
+  const Groups groups = find_groups(marked);
+  const PixelRect all{0, 0, picture.width(), picture.height()};
+  progress.begin("removing", static_cast<double>(groups.boxes.size()));
+  for (std::size_t g = 0; g < groups.boxes.size(); ++g) {
+    progress.advance(1.0);
+    if (groups.boxes[g].empty()) continue;
+    PixelRect rect;
+    Mask known;
+    for (int around = around_px; rect != all; around *= 2) {
+      rect = intersection(grown(groups.boxes[g], around), all);
+      known = part_of(usable, rect);
+      if (std::count(known.begin(), known.end(), 1) >=
+          static_cast<std::ptrdiff_t>(max_kinds * min_kind_texels))
+        break;
+    }
+    Mask open = part_of(marked, rect);
+    const Grid<std::uint32_t> patch = part_of(groups.joined.of_cell, rect);
+    for (std::size_t i = 0; i < open.size(); ++i)
+      if (patch[i] != g) open[i] = 0;
+    // Without its tone a kind is a texture of one light everywhere; one that has no texture at all
+    // is filled with the tone alone.
+    Grid<glm::vec3> part = part_of(picture, rect);
+    const auto [kinds, tone] = continue_ground(
+        part, find_kinds(part, known), open, std::max(min_tone_px, tone_per_px * half_width(open)));
+    for (std::size_t i = 0; i < part.size(); ++i)
+      part[i] = open[i] != 0 ? glm::vec3(mid_grey) : part[i] - tone[i] + mid_grey;
+    part = fill_excluded(part, kinds, open).picture;
+    for (int y = 0; y < part.height(); ++y)
+      for (int x = 0; x < part.width(); ++x) {
+        if (open(x, y) == 0) continue;
+        if (kinds(x, y) == unused_label) {
+          ++paint.left;
+          continue;
+        }
+        ++paint.filled;
+        paint.picture(rect.x0 + x, rect.y0 + y) =
+            glm::clamp(part(x, y) + tone(x, y) - mid_grey, 0.F, 1.F);
+      }
   }
   return paint;
 }

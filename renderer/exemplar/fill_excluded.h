@@ -26,6 +26,16 @@ FilledPaint fill_excluded(const Grid<glm::vec3>& picture, const Grid<std::uint8_
                           const Grid<std::uint8_t>& excluded,
                           Progress& progress = silent_progress());
 
+// A picture (encoded sRGB) without what is marked (not 0), where the kinds of ground are not known.
+// Around each group of marked pixels the ground is split into a few segments (segment.h), whose
+// borders continue under the mark; each is filled by fill_excluded with its own texture. Its tone,
+// what changes more slowly than the mark is wide, is taken off before, continued under the mark
+// from what lies beside it, and put on again. `counts`: 0 excludes pixels from the surroundings.
+// Too little of these (min_crop_px squared) leave their mark as it was: `left`. Nothing else
+// changes; `labels` are empty.
+FilledPaint remove_marked(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& counts,
+                          const Grid<std::uint8_t>& marked, Progress& progress = silent_progress());
+
 // The direction of strokes in a painting of which only picture (encoded sRGB) and labels are known,
 // as the fall line of guidance: unit, x right, y down, never upwards; 0 where strokes are
 // horizontal (within 15°), as on flat ground, or have no direction. From the structure tensor of

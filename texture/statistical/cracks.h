@@ -9,12 +9,14 @@
 namespace belvedere {
 
 // Cracks and pits of a weathered texture (Zalesny et al. 2005, section 7): the crop's darkest
-// pixels are a texture of their own, which is learnt and made without the rest. Thresholds of what
-// is made then give a series of masks, from the deepest cracks to all of them.
+// pixels are a texture of their own, which is learnt and made without the rest. Thresholds of the
+// ridges of what is made, whose pieces are joined until they are as long as in the crop, then give
+// a series of masks, from the deepest cracks to all of them.
 struct CrackModel {
   CliqueModel depth;          // grey: 0 intact … 255 within a crack
   Rgb8 colour{};              // of the crop's cracks, their mean
   double share = 0.0;         // of the crop's pixels
+  double pieces = 0.0;        // connected ones (also by corners) per pixel of the crop's cracks
   Grid<std::uint8_t> intact;  // the states of the crop's pixels without its cracks and their rims,
                               // to learn the intact texture from
 };

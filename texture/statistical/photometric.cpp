@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -301,13 +302,16 @@ Grid<std::uint8_t> find_similar_colours(const Grid<glm::vec3>& picture, const Gr
   // One region each: its mean, and the blurred colours.
   PhotometricParameters one;
   one.regions = 1;
-  const glm::dvec3 wanted = find_regions(crop, crop_counts, one, "crop").mean;
+  const auto per_lightness = [](glm::dvec3 colour) {
+    constexpr double black = 0.05;  // below this, colour is noise
+    return glm::dvec2(colour.y, colour.z) / std::max(colour.x, black);
+  };
+  const glm::dvec2 wanted = per_lightness(find_regions(crop, crop_counts, one, "crop").mean);
   const Grid<glm::vec3> seen = find_regions(picture, picture_counts, one, "picture").seen;
   Grid<float> distance(picture.width(), picture.height());
   std::vector<float> counted;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    glm::dvec3 step = glm::dvec3(seen[i]) - wanted;
-    step.x *= 0.25;
+    const glm::dvec2 step = per_lightness(seen[i]) - wanted;
     distance[i] = static_cast<float>(glm::dot(step, step));
     if (inside_mask(picture_counts, i)) counted.push_back(distance[i]);
   }

@@ -36,8 +36,8 @@ Grid<glm::vec3> correct_colours(const Grid<glm::vec3>& source, const Grid<glm::v
                                 const Grid<std::uint8_t>& target_counts = {});
 
 // The part of a picture that resembles a crop: the `share` of its pixels (of those that count, as
-// above) whose blurred colour is nearest to the crop's mean; 1: belongs to it. Lightness weighs a
-// quarter, because it changes most with the light of the day. Error(input) where nothing counts.
+// above) whose blurred colour is nearest to the crop's mean; 1: belongs to it. Colours are compared
+// per lightness, because that changes with the light of the day. Error(input) where nothing counts.
 Grid<std::uint8_t> find_similar_colours(const Grid<glm::vec3>& picture, const Grid<glm::vec3>& crop,
                                         double share, const Grid<std::uint8_t>& picture_counts = {},
                                         const Grid<std::uint8_t>& crop_counts = {});

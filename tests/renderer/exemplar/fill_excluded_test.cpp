@@ -105,6 +105,103 @@ TEST(FillExcluded, NothingExcludedNothingChanged) {
   EXPECT_EQ(filled.filled, 0U);
 }
 
+// Mean and deviation of green minus blue, and of green, over columns of the bar of the letters.
+struct BarColours {
+  double tint = 0.0, light = 0.0, spread = 0.0;
+};
+BarColours bar_colours(const Grid<glm::vec3>& picture, int x0, int x1) {
+  BarColours out;
+  double squares = 0.0;
+  const double count = 6.0 * (x1 - x0);
+  for (int y = 40; y < 46; ++y)
+    for (int x = x0; x < x1; ++x) {
+      const glm::dvec3 c(picture(x, y));
+      out.tint += (c.y - c.z) / count;
+      out.light += c.y / count;
+      squares += c.y * c.y / count;
+    }
+  out.spread = std::sqrt(std::max(0.0, squares - out.light * out.light));
+  return out;
+}
+
+// Without classes: the two kinds of ground are found, their border goes on under the letters, and
+// each side has its own ground's colours.
+TEST(RemoveMarked, TheBorderOfTwoGroundsContinuesUnderTheMark) {
+  const LetteredPainting painting;
+  const Grid<std::uint8_t> all(painting_width, painting_height, 1);
+  const FilledPaint removed = remove_marked(painting.picture, all, painting.excluded);
+  EXPECT_EQ(removed.left, 0U);
+  EXPECT_EQ(removed.filled, static_cast<std::size_t>(
+                                std::count(painting.excluded.begin(), painting.excluded.end(), 1)));
+  for (int y = 0; y < painting_height; ++y)
+    for (int x = 0; x < painting_width; ++x)
+      if (!is_lettering(x, y)) {
+        ASSERT_EQ(removed.picture(x, y), painting.picture(x, y)) << x << ", " << y;
+      }
+  // Green is 130 of 255 on the left and .2 more on the right, blue 60 on the left.
+  const BarColours left = bar_colours(removed.picture, 40, 77);
+  const BarColours right = bar_colours(removed.picture, 83, 120);
+  EXPECT_NEAR(left.tint, 70.0 / 255.0, .05);
+  EXPECT_NEAR(right.tint, 0.0, .02);
+  EXPECT_NEAR(left.light, 130.0 / 255.0, .05);
+  EXPECT_NEAR(right.light, 130.0 / 255.0 + .2, .05);
+  // Deviations of green: 14 and 11 of 255 and flecks, together .07 to .08.
+  EXPECT_NEAR(left.spread, .07, .035);
+  EXPECT_NEAR(right.spread, .07, .035);
+  // Close to the border, too.
+  EXPECT_GT(bar_colours(removed.picture, 72, 77).tint, .15);
+  EXPECT_LT(bar_colours(removed.picture, 83, 88).tint, .08);
+}
+
+// Ground in light that grows along the row has that light under the mark, which is 40 wide.
+TEST(RemoveMarked, TheToneGoesOnUnderTheMark) {
+  const Grid<Rgb8> meadow = test::meadow_crop(painting_width, painting_height);
+  const auto light = [](int x) { return .3F + 1.1F * static_cast<float>(x) / painting_width; };
+  Grid<glm::vec3> picture(painting_width, painting_height);
+  Grid<std::uint8_t> marked(painting_width, painting_height);
+  for (int y = 0; y < painting_height; ++y)
+    for (int x = 0; x < painting_width; ++x) {
+      const Rgb8& c = meadow(x, y);
+      marked(x, y) = x >= 60 && x < 100 && y >= 40 && y < 80 ? 1 : 0;
+      picture(x, y) = marked(x, y) != 0 ? glm::vec3(1.F, 0.F, .2F)
+                                        : glm::vec3(c[0], c[1], c[2]) * (light(x) / 255.F);
+    }
+  const Grid<std::uint8_t> all(painting_width, painting_height, 1);
+  const FilledPaint removed = remove_marked(picture, all, marked);
+  EXPECT_EQ(removed.filled, 1600U);
+  for (int from = 60; from < 100; from += 10) {
+    double mean = 0.0;
+    for (int y = 40; y < 80; ++y)
+      for (int x = from; x < from + 10; ++x)
+        mean += static_cast<double>(removed.picture(x, y).y) / 400.0;
+    // Flecks add about 1 of 255 to the meadow's 130.
+    EXPECT_NEAR(mean, static_cast<double>(light(from + 5)) * 131.0 / 255.0, .045) << from;
+  }
+}
+
+TEST(RemoveMarked, FlatGroundStaysFlatAndWithoutGroundTheMarkStays) {
+  Grid<glm::vec3> picture(80, 70, glm::vec3(.4F, .5F, .6F));
+  Grid<std::uint8_t> marked(80, 70);
+  for (int y = 30; y < 40; ++y)
+    for (int x = 30; x < 50; ++x) {
+      picture(x, y) = {1.F, 0.F, 0.F};
+      marked(x, y) = 1;
+    }
+  Grid<std::uint8_t> counts(80, 70, 1);
+  const FilledPaint removed = remove_marked(picture, counts, marked);
+  EXPECT_EQ(removed.filled, 200U);
+  for (const glm::vec3& c : removed.picture) {
+    EXPECT_NEAR(c.x, .4F, .005F);
+    EXPECT_NEAR(c.z, .6F, .005F);
+  }
+  // 40 × 50 pixels are less than 48 × 48.
+  for (int y = 0; y < 70; ++y)
+    for (int x = 0; x < 80; ++x) counts(x, y) = x < 40 && y < 50 ? 1 : 0;
+  const FilledPaint kept = remove_marked(picture, counts, marked);
+  EXPECT_EQ(kept.left, 200U);
+  EXPECT_EQ(kept.picture, picture);
+}
+
 // Strokes about 3 wide and 15 long at `degrees` from the horizontal (clockwise, as y points down),
 // with different lightness.
 glm::vec3 stroke_at(int x, int y, double degrees, std::uint64_t seed) {

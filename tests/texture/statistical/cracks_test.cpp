@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/masks/label_blur.h"
 #include "base/random.h"
 #include "tests/grids.h"
 #include "tests/texture/statistical/texture_crops.h"
@@ -72,6 +73,38 @@ TEST(Cracks, GrowOverAPictureStepByStep) {
             static_cast<std::ptrdiff_t>(white.size() / 2));
   EXPECT_EQ(lay_cracks(white, cracks, 3, 5), series);
   EXPECT_NE(lay_cracks(white, cracks, 3, 6), series);
+}
+
+// Pixels of the largest connected part of what is dark, and its share of all that is.
+struct LargestPart {
+  double pixels = 0.0, share = 0.0;
+};
+LargestPart largest_dark_part(const Grid<Rgb8>& picture) {
+  Grid<std::uint8_t> dark(picture.width(), picture.height());
+  for (std::size_t i = 0; i < dark.size(); ++i) dark[i] = picture[i][1] < 130 ? 1 : 0;
+  const auto patches = find_patches(dark, [](std::uint8_t) { return true; });
+  LargestPart out;
+  for (std::size_t k = 0; k < patches.sizes.size(); ++k)
+    if (patches.labels[k] == 1)
+      out.pixels = std::max(out.pixels, static_cast<double>(patches.sizes[k]));
+  out.share = out.pixels / static_cast<double>(std::max<std::ptrdiff_t>(
+                               1, std::count(dark.begin(), dark.end(), std::uint8_t{1})));
+  return out;
+}
+
+// The crop's cracks are few and long. As a texture of levels they came out in pieces, the longest a
+// fiftieth of all; they are joined until there are as few as in the crop, and no fewer.
+TEST(Cracks, AreJoinedAsInTheCrop) {
+  Grid<Rgb8> crop;
+  const double share = cracked_meadow(crop);
+  CrackModel cracks = learn_cracks(crop, {}, share, few_types);
+  EXPECT_LT(cracks.pieces, .02) << "lines of more than 50 pixels each";
+  const Grid<Rgb8> white(200, 180, Rgb8{250, 250, 250});
+  const LargestPart joined = largest_dark_part(lay_cracks(white, cracks, 1, 5).front());
+  cracks.pieces = 1.0;  // each pixel by itself: nothing to join
+  const LargestPart apart = largest_dark_part(lay_cracks(white, cracks, 1, 5).front());
+  EXPECT_GT(joined.share, .15);
+  EXPECT_GT(joined.pixels, 2.0 * apart.pixels);
 }
 
 }  // namespace

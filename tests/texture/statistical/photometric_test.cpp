@@ -60,6 +60,16 @@ TEST(Photometric, WhatResemblesACropIsFoundInAnotherLight) {
   EXPECT_THROW(find_similar_colours(picture, crop, .25, Grid<std::uint8_t>(96, 96)), Error);
 }
 
+// Of two greens on the same ground it is the hue that decides, not which is as dark as the crop: a
+// dim crop resembles bright ground of its hue more than dark ground of another.
+TEST(Photometric, ADimCropResemblesBrightGroundOfItsHue) {
+  const Grid<glm::vec3> picture = two_halves({.30, .6, .85}, {.18, .6, .3}, 1);
+  const Grid<glm::vec3> crop = two_halves({.30, .6, .3}, {.30, .6, .3}, 9);
+  const Grid<std::uint8_t> similar = find_similar_colours(picture, crop, .25);
+  for (int y = 56; y < 96; ++y)
+    for (int x = 0; x < 96; ++x) ASSERT_EQ(similar(x, y), 0) << x << ", " << y;
+}
+
 TEST(Photometric, OwnColoursStay) {
   const Grid<glm::vec3> picture = two_halves({.6, .5, .8}, {.3, .6, .4}, 1);
   const Grid<glm::vec3> out = correct_colours(picture, picture, {.regions = 2});

@@ -34,7 +34,8 @@ struct TextureFillOptions : RunOptions {
   std::uint64_t seed = 1;
 };
 
-constexpr double similar_share = .25;  // of the picture, whose light a planted texture takes
+constexpr double similar_share = .25;  // of the ground around, whose light a planted texture takes
+constexpr int nearest_ground_px = 32;  // width of that ground, doubled until there is enough
 constexpr int planted_margin_px =
     32;  // synthesized beyond the mask and cut off, as in make_texture
 
@@ -134,10 +135,7 @@ int run_remove(const TextureFillOptions& options) {
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const TextureScan scan = read_scan(options, progress);
-  // One kind of ground: each group of marked pixels is learnt from what lies around it.
-  Grid<std::uint8_t> kinds(scan.hole.width(), scan.hole.height());
-  for (std::size_t i = 0; i < kinds.size(); ++i) kinds[i] = scan.counts[i] != 0 ? 0 : unused_label;
-  const FilledPaint paint = fill_excluded(scan.stored, kinds, scan.hole, progress);
+  const FilledPaint paint = remove_marked(scan.stored, scan.counts, scan.hole, progress);
   if (paint.left > 0)
     throw Error(ErrorKind::input, options.hole,
                 fmt::format("{} of the pixels to remove have no texture around them", paint.left),
@@ -146,6 +144,21 @@ int run_remove(const TextureFillOptions& options) {
       options, scan, paint.picture,
       fmt::format("remove {} --mask {}", file_name(options.picture), file_name(options.hole)),
       progress);
+}
+
+// What resembles the crop on the ground immediately around the mask: farther ground may lie in
+// another light.
+Grid<std::uint8_t> find_similar_ground(const TextureScan& scan, const Grid<std::uint8_t>& known,
+                                       const Grid<glm::vec3>& colours, const TextureCrop& crop) {
+  const int farthest = std::max(known.width(), known.height());
+  Grid<std::uint8_t> near;
+  for (int px = nearest_ground_px; px < 2 * farthest; px *= 2) {
+    near = widened(scan.hole, px);
+    for (std::size_t i = 0; i < near.size(); ++i)
+      if (known[i] == 0) near[i] = 0;
+    if (std::count(near.begin(), near.end(), 1) >= 2 * min_crop_px * min_crop_px) break;
+  }
+  return find_similar_colours(scan.stored, colours, similar_share, near, crop.states);
 }
 
 // The crop's texture in the light of what resembles it in the picture.
@@ -173,10 +186,9 @@ int run_plant(const TextureFillOptions& options) {
   Grid<std::uint8_t> known = scan.counts;
   for (std::size_t i = 0; i < known.size(); ++i)
     if (scan.hole[i] != 0) known[i] = 0;
-  Grid<std::uint8_t> similar =
-      options.like.empty()
-          ? find_similar_colours(scan.stored, colours, similar_share, known, crop.states)
-          : read_mask_of(options.like, options.picture, scan.picture);
+  Grid<std::uint8_t> similar = options.like.empty()
+                                   ? find_similar_ground(scan, known, colours, crop)
+                                   : read_mask_of(options.like, options.picture, scan.picture);
   for (std::size_t i = 0; i < similar.size(); ++i)
     if (known[i] == 0) similar[i] = 0;
   const CliqueModel model = learn_planted(crop, colours, scan, similar, options.as_it_is, progress);
@@ -250,10 +262,10 @@ Action add_texture_remove(CommandOptions& command) {
   add_common(command, *options, "--mask",
              "Mask of what is removed: a grey picture of its size, 0 is kept");
   command.footer(
-      "Removes lettering, frames and figures: learns a texture around each group of marked pixels "
-      "and fills them with it. Remove what stands\n"
-      "on another kind of ground by a mask of its own. Nothing outside the mask changes; a .tif "
-      "keeps 16 bits.\n"
+      "Removes lettering, frames and figures: learns the kinds of ground around each group of "
+      "marked pixels, continues their borders under\n"
+      "it and fills each with its texture and tone. Nothing outside the mask changes; a .tif keeps "
+      "16 bits.\n"
       "\n"
       "  belvedere texture remove scan.tif --mask lettering.png --out clean.tif");
   return [options] { return run_remove(*options); };
@@ -273,8 +285,8 @@ Action add_texture_plant(CommandOptions& command) {
   command
       .add_option("--like", options->like,
                   "Mask of the part of PICTURE whose colours the texture takes, and joins. "
-                  "Default: the quarter of it that is nearest\n"
-                  "in colour to the crop")
+                  "Default: the quarter of the ground around\n"
+                  "the mask that is nearest in colour to the crop, in whatever light")
       .type_name("PICTURE")
       .files(FileUse::input);
   command.add_flag("--as-it-is", options->as_it_is, "Keeps the crop's own colours");

@@ -225,6 +225,31 @@ TEST_F(Texture, PlantsACropInThePicturesLight) {
   EXPECT_NEAR(grey.x, grey.z, .08F) << "of the ground that --like names";
 }
 
+// A dim crop in a light meadow beside a dark one: the light of what lies around the mask, not of
+// the dark part that is as dim as the crop.
+TEST_F(Texture, PlantsInTheLightAroundTheMask) {
+  const Grid<Rgb8> meadow = test::meadow_crop(160, 100);
+  const auto of = [&](int x, int y, float light) {
+    const Rgb8& c = meadow(x, y);
+    return glm::vec3(c[0], c[1], c[2]) * (light / 255.F);
+  };
+  const auto marked = [](int x, int y) { return x >= 12 && x < 48 && y >= 30 && y < 70; };
+  const std::string picture =
+      write_picture("p.png", 160, 100, [&](int x, int y) { return of(x, y, x < 90 ? 1.2F : .4F); });
+  const std::string crop =
+      write_picture("crop.png", 64, 64, [&](int x, int y) { return of(x, y, .5F); });
+  const std::string mask =
+      write_labels("mask.tif", 160, 100, [&](int x, int y) { return marked(x, y) ? 1 : 0; });
+  ASSERT_THAT(run({"texture", "plant", picture, "--mask", mask, "--from", crop, "--out",
+                   path("out.png"), "-q"}),
+              Ends(0));
+  const Grid<glm::vec3> after = read_picture(path("out.png"));
+  double green = 0.0;
+  for (const auto [x, y] : test::cells(160, 100))
+    if (marked(x, y)) green += static_cast<double>(after(x, y).y) / (36.0 * 40.0);
+  EXPECT_NEAR(green, 1.2 * 131.0 / 255.0, .08);
+}
+
 TEST_F(Texture, BadInputIsNamed) {
   const auto refused = [&](const std::vector<std::string>& arguments, int status,
                            const std::string& word) {
