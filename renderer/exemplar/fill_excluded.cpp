@@ -184,11 +184,12 @@ using Mask = Grid<std::uint8_t>;
 
 constexpr std::size_t max_kinds = 4;  // of ground around a group
 constexpr std::size_t min_kind_texels = 2 * min_crop_texels;
-constexpr double tone_per_px = .25;  // sigma of the tone, per half width of what is removed, …
-constexpr double min_tone_px = 4.0;  // … and at least
-constexpr double border_px = 1.0;    // sigma of the borders of kinds
-constexpr float min_seen = 1e-4F;    // share of a blur below which it tells nothing
-constexpr float mid_grey = .5F;
+constexpr double tone_share = .1;     // sigma of the tone, of the shorter side of a group, …
+constexpr double min_tone_px = 4.0;   // … from this …
+constexpr double max_tone_px = 24.0;  // … to this
+constexpr double border_px = 1.0;     // sigma of the borders of kinds
+constexpr float min_seen = 1e-4F;     // share of a blur below which it tells nothing
+constexpr float mid_grey = 128.F / 255.F;
 
 // The kinds of ground of the known pixels: as many segments as there is enough paint of all to
 // learn from; unused_label elsewhere, or everywhere if there is too little for one.
@@ -276,21 +277,6 @@ Ground continue_ground(const Grid<glm::vec3>& picture, const Mask& seen, const M
   return out;
 }
 
-// Half the width of the widest part of a mask, px.
-double half_width(const Mask& mask) {
-  Mask rest(mask.width(), mask.height());
-  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = mask[i] == 0 ? 1 : 0;
-  const Grid<std::int32_t> nearest = nearest_marked(rest);
-  double widest = 0.0;
-  for (int y = 0; y < mask.height(); ++y)
-    for (int x = 0; x < mask.width(); ++x) {
-      const double right = x - nearest(x, y) % mask.width();
-      const double down = y - nearest(x, y) / mask.width();
-      widest = std::max(widest, std::sqrt(right * right + down * down));
-    }
-  return widest;
-}
-
 }  // namespace
 
 FilledPaint remove_marked(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& counts,
@@ -321,8 +307,10 @@ FilledPaint remove_marked(const Grid<glm::vec3>& picture, const Grid<std::uint8_
     // Without its tone a kind is a texture of one light everywhere; one that has no texture at all
     // is filled with the tone alone.
     Grid<glm::vec3> part = part_of(picture, rect);
-    const auto [kinds, tone] = continue_ground(
-        part, find_kinds(part, known), open, std::max(min_tone_px, tone_per_px * half_width(open)));
+    const double shorter = std::min(groups.boxes[g].width(), groups.boxes[g].height());
+    const auto [kinds, tone] =
+        continue_ground(part, find_kinds(part, known), open,
+                        std::clamp(tone_share * shorter, min_tone_px, max_tone_px));
     for (std::size_t i = 0; i < part.size(); ++i)
       part[i] = open[i] != 0 ? glm::vec3(mid_grey) : part[i] - tone[i] + mid_grey;
     part = fill_excluded(part, kinds, open).picture;

@@ -128,10 +128,8 @@ Grid<float> join_cracks(Grid<float> ridges, const CrackModel& cracks) {
       }
     }
   }
-  const Grid<std::uint8_t> beside = widened(path, 1);
   for (std::size_t i = 0; i < path.size(); ++i)
-    if (beside[i] != 0)
-      ridges[i] = std::max(ridges[i], path[i] != 0 ? joined : from - softness / 4.F);
+    if (path[i] != 0) ridges[i] = std::max(ridges[i], joined);
   return ridges;
 }
 
