@@ -255,7 +255,6 @@ Ground continue_ground(const Grid<glm::vec3>& picture, const Mask& seen, const M
   const Channels share = continue_values(is, known, border_px);
   Ground out{seen, Grid<glm::vec3>(seen.width(), seen.height(), glm::vec3(0.F))};
   Grid<float> most = none;
-  Grid<float> weights = none;
   for (std::size_t kind = 0; kind < max_kinds; ++kind) {
     Channels colours(3, none);
     for (std::size_t i = 0; i < seen.size(); ++i)
@@ -264,16 +263,12 @@ Ground continue_ground(const Grid<glm::vec3>& picture, const Mask& seen, const M
     colours = continue_values(colours, is[kind], sigma);
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const float own = open[i] != 0 ? share[kind][i] : is[kind][i];
-      const float weight = own * own * own * own;
-      out.tone[i] += weight * glm::vec3(colours[0][i], colours[1][i], colours[2][i]);
-      weights[i] += weight;
+      out.tone[i] += own * glm::vec3(colours[0][i], colours[1][i], colours[2][i]);
       if (open[i] == 0 || own <= most[i]) continue;
       most[i] = own;
       out.kinds[i] = static_cast<std::uint8_t>(kind);
     }
   }
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    if (weights[i] > 0.F) out.tone[i] /= weights[i];
   return out;
 }
 

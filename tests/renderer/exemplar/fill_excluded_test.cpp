@@ -179,8 +179,9 @@ TEST(RemoveMarked, TheToneGoesOnUnderTheMark) {
   // Flecks add about 1 of 255 to the meadow's 130. The light grows by .24 from the first ten
   // columns to the last, .125 in green.
   for (int from = 60; from < 100; from += 10)
-    EXPECT_NEAR(mean_from(from), static_cast<double>(light(from + 5)) * 131.0 / 255.0, .06) << from;
-  EXPECT_NEAR(mean_from(90) - mean_from(60), .125, .06);
+    EXPECT_NEAR(mean_from(from), static_cast<double>(light(from + 5)) * 131.0 / 255.0, .07) << from;
+  EXPECT_GT(mean_from(90) - mean_from(60), .07);
+  EXPECT_LT(mean_from(90) - mean_from(60), .23);
 }
 
 TEST(RemoveMarked, FlatGroundStaysFlatAndWithoutGroundTheMarkStays) {
