@@ -2,6 +2,7 @@
 // Groups of a painting's pieces as they are merged, split and named, and the mask that comes of it. Knows nothing of the page.
 
 const unnamed = 255;
+const sure = 65535; // the question of groups that need none
 
 // Pieces of all pixels from base64: for each run its piece (two bytes, low first) and its length (seven bits a byte, low first).
 function decodePieces(text, count) {
@@ -24,13 +25,14 @@ function decodePieces(text, count) {
   return pieces;
 }
 
-// The state is a list of groups, each the nodes of the tree that it is made of and the number of its class. It is never changed, only
-// followed by another, so that undoing is going back.
+// The state is a list of groups, each the nodes of the tree that it is made of, the number of its class, the question that it belongs to
+// and whether a person said what it shows. It is never changed, only followed by another, so that undoing is going back.
 class Groups {
   constructor(data) {
     this.data = data;
     this.pieceCount = data.joins.length + 1;
-    this.states = [data.groups.map((node) => ({ nodes: [node], name: data.inferred[node] }))];
+    this.states = [data.groups.map((node, k) => (
+      { nodes: [node], name: data.shows[k], question: data.questions[k], said: data.named[k] === 1 }))];
     this.now = 0;
   }
   get groups() { return this.states[this.now]; }
@@ -47,7 +49,7 @@ class Groups {
   merge(first, second) {
     if (first === second) return false;
     const groups = this.groups.slice();
-    groups[first] = { nodes: groups[first].nodes.concat(groups[second].nodes), name: groups[first].name };
+    groups[first] = { ...groups[first], nodes: groups[first].nodes.concat(groups[second].nodes) };
     groups.splice(second, 1);
     this.follow(groups);
     return true;
@@ -60,16 +62,31 @@ class Groups {
       nodes = this.data.joins[nodes[0] - this.pieceCount];
     }
     const groups = this.groups.slice();
-    const name = groups[group].name;
-    groups.splice(group, 1, ...nodes.map((node) => ({ nodes: [node], name })));
+    const whole = groups[group];
+    groups.splice(group, 1, ...nodes.map((node) => ({ ...whole, nodes: [node] })));
     this.follow(groups);
     return true;
   }
   name(group, name) {
     if (this.groups[group].name === name) return false;
     const groups = this.groups.slice();
-    groups[group] = { nodes: groups[group].nodes, name };
+    groups[group] = { ...groups[group], name, said: true };
     this.follow(groups);
+    return true;
+  }
+
+  // The numbers of the groups that the first open question is about: those that look alike and that nobody named. Empty: all is said.
+  asked() {
+    const open = this.groups.filter((group) => !group.said && group.question !== sure).map((group) => group.question);
+    const first = Math.min(...open);
+    return [...this.groups.keys()].filter((k) => !this.groups[k].said && this.groups[k].question === first && first !== Infinity);
+  }
+  openQuestions() { return new Set(this.groups.filter((group) => !group.said && group.question !== sure).map((group) => group.question)).size; }
+  // One answer for all of them.
+  answer(name) {
+    const asked = new Set(this.asked());
+    if (asked.size === 0) return false;
+    this.follow(this.groups.map((group, k) => (asked.has(k) ? { ...group, name, said: true } : group)));
     return true;
   }
 
@@ -92,6 +109,27 @@ class Groups {
     const groups = this.groups;
     return Uint8Array.from(pieces, (piece) => (piece === 65535 ? unnamed : groups[of[piece]].name));
   }
+}
+
+// What was said, as the command reads it: for each node of a named group a place of its largest piece, in TOML.
+function namesFile(groups, pieces, width, height, nameOf) {
+  const pixels = new Uint32Array(groups.pieceCount);
+  for (const piece of pieces) if (piece !== 65535) ++pixels[piece];
+  const left = pixels.map((count) => count >> 1);
+  const middle = new Int32Array(groups.pieceCount).fill(-1);
+  pieces.forEach((piece, at) => { if (piece !== 65535 && middle[piece] < 0 && left[piece]-- === 0) middle[piece] = at; });
+  const largest = (node) => {
+    if (node < groups.pieceCount) return node;
+    const [a, b] = groups.data.joins[node - groups.pieceCount].map(largest);
+    return pixels[b] > pixels[a] ? b : a;
+  };
+  const lines = groups.groups.filter((group) => group.said).flatMap((group) => group.nodes.map((node) => {
+    const at = middle[largest(node)];
+    const across = ((at % width + 0.5) / width).toFixed(6);
+    const down = ((Math.floor(at / width) + 0.5) / height).toFixed(6);
+    return `[[named]]\nat = [${across}, ${down}]\nclass = "${nameOf(group.name)}"\n`;
+  }));
+  return lines.length === 0 ? "named = []\n" : lines.join("");
 }
 
 function crc32(bytes) {

@@ -16,6 +16,7 @@ function draw() {
   context.drawImage(image, 0, 0, canvas.width, canvas.height);
   const picture = context.getImageData(0, 0, canvas.width, canvas.height);
   const of = groups.ofPieces();
+  const asked = new Set(groups.asked());
   const shown = new Int32Array(canvas.width * canvas.height);
   for (let y = 0; y < canvas.height; ++y) {
     const row = Math.min(Math.floor((y + 0.5) * segments.height / canvas.height), segments.height - 1) * segments.width;
@@ -30,10 +31,27 @@ function draw() {
       const here = shown[at];
       const border = (x + 1 < canvas.width && shown[at + 1] !== here) || (y + 1 < canvas.height && shown[at + canvas.width] !== here);
       if (border) picture.data.set([255, 40, 40, 255], 4 * at);
-      else if (here === chosen)
-        for (let c = 0; c < 3; ++c) picture.data[4 * at + c] = 0.6 * picture.data[4 * at + c] + 0.4 * [255, 220, 60][c];
+      else if (here === chosen || asked.has(here))
+        for (let c = 0; c < 3; ++c)
+          picture.data[4 * at + c] = 0.6 * picture.data[4 * at + c] + 0.4 * (here === chosen ? [255, 220, 60] : [40, 90, 255])[c];
     }
   context.putImageData(picture, 0, 0);
+}
+
+function addClasses(select, name) {
+  for (const one of [...segments.classes, { number: unnamed, name: "not used" }])
+    select.add(new Option(one.name, one.number, false, one.number === name));
+}
+
+// The question; what was inferred for the first of its groups is chosen.
+function ask() {
+  const asked = groups.asked();
+  const open = groups.openQuestions();
+  const select = document.getElementById("shows");
+  document.getElementById("asked").textContent = open === 0 ? "Everything has a name." : `What do the blue places show? (${open} to answer)`;
+  select.replaceChildren();
+  if (open > 0) addClasses(select, groups.groups[asked[0]].name);
+  for (const id of ["shows", "answer"]) document.getElementById(id).hidden = open === 0;
 }
 
 function list() {
@@ -57,8 +75,7 @@ function list() {
     row.insertCell().textContent = `${number + 1}`;
     row.insertCell().textContent = `${(100 * pixels[number] / all).toFixed(1)} %`;
     const select = document.createElement("select");
-    for (const one of [...segments.classes, { number: unnamed, name: "not used" }])
-      select.add(new Option(one.name, one.number, false, one.number === group.name));
+    addClasses(select, group.name);
     select.addEventListener("change", () => { groups.name(number, Number(select.value)); choose(number); });
     row.insertCell().append(select);
     row.addEventListener("click", (event) => { if (event.target !== select) pick(number); });
@@ -70,6 +87,7 @@ function list() {
 function show() {
   draw();
   list();
+  ask();
 }
 function choose(number) {
   chosen = Math.min(number, groups.groups.length - 1);
@@ -109,20 +127,29 @@ const actions = {
   },
 };
 
+actions.answer = () => {
+  if (groups.answer(Number(document.getElementById("shows").value))) choose(-1);
+};
+
 async function maskFile() {
   const colours = [];
   for (const one of segments.classes) colours[one.number] = [1, 3, 5].map((at) => parseInt(one.colour.slice(at, at + 2), 16));
   return palettePng(groups.mask(pieces), segments.width, segments.height, colours);
 }
-actions.save = async () => {
+function save(content, type, name) {
   const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([await maskFile()], { type: "image/png" }));
-  link.download = segments.mask;
+  link.href = URL.createObjectURL(new Blob([content], { type }));
+  link.download = name;
   link.click();
   URL.revokeObjectURL(link.href);
+}
+actions.save = async () => save(await maskFile(), "image/png", segments.mask);
+actions.names = () => {
+  const nameOf = (number) => classOf(number)?.name ?? "not used";
+  save(namesFile(groups, pieces, segments.width, segments.height, nameOf), "application/toml", segments.names);
 };
 
-for (const name of ["merge", "split", "undo", "redo", "save"]) document.getElementById(name).addEventListener("click", actions[name]);
+for (const name of ["merge", "split", "undo", "redo", "save", "names", "answer"]) document.getElementById(name).addEventListener("click", actions[name]);
 canvas.addEventListener("click", (event) => {
   const box = canvas.getBoundingClientRect();
   const x = Math.floor((event.clientX - box.left) / box.width * segments.width);
@@ -131,9 +158,11 @@ canvas.addEventListener("click", (event) => {
   const piece = pieces[y * segments.width + x];
   if (piece !== 65535) pick(groups.ofPieces()[piece], event.shiftKey);
 });
-const keys = { m: "merge", s: "split", u: "undo", r: "redo", n: "name", d: "save", ArrowRight: "next", ArrowDown: "next", ArrowLeft: "previous", ArrowUp: "previous" };
+const keys = { m: "merge", s: "split", u: "undo", r: "redo", n: "name", d: "save", Enter: "answer", ArrowRight: "next", ArrowDown: "next", ArrowLeft: "previous", ArrowUp: "previous" };
 document.addEventListener("keydown", (event) => {
-  if (event.target.tagName === "SELECT") return;
+  const answering = event.target.id === "shows" && event.key === "Enter";
+  if (event.target.tagName === "SELECT" && !answering) return;
+  if (event.target.tagName === "BUTTON" && event.key === "Enter") return;
   const command = event.ctrlKey || event.metaKey;
   const action = command ? { z: event.shiftKey ? "redo" : "undo", y: "redo" }[event.key.toLowerCase()] : keys[event.key];
   if (!action) return;

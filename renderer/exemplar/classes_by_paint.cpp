@@ -327,23 +327,22 @@ std::vector<LookSums> measure_looks(const Grid<glm::vec3>& oklab, const Superpix
   return sums;
 }
 
-std::vector<std::uint8_t> infer_nodes(std::vector<LookSums> sums, const JoinTree& tree) {
-  for (const auto& [a, b] : tree.joins) {
+void look_at_nodes(std::vector<LookSums> sums, PaintingSegments& segments) {
+  for (const auto& [a, b] : segments.tree.joins) {
     LookSums both = sums[a];
     both += sums[b];
     sums.push_back(both);
   }
   const LookSums& whole = sums.back();
   const double usual = std::max((whole.across + whole.down) / whole.pixels, 1e-6);
-  std::vector<std::uint8_t> inferred;
-  inferred.reserve(sums.size());
   for (const LookSums& sum : sums) {
     PartLook look{sum.oklab / sum.pixels, sum.y / sum.pixels, sum.upper_edge,
                   sum.across / sum.pixels, sum.down / sum.pixels};
     look.rough = (look.across + look.down) / usual;
-    inferred.push_back(infer_class(look));
+    segments.looks.push_back(look);
+    segments.pixels.push_back(sum.pixels);
+    segments.inferred.push_back(infer_class(look));
   }
-  return inferred;
 }
 
 void check_picture(const Grid<glm::vec3>& picture, const Grid<float>& alpha,
@@ -415,7 +414,7 @@ PaintingSegments segment_painting(const Grid<glm::vec3>& picture, const Grid<flo
   const Partition groups = group_pieces(segments, theta);
   out.groups = std::size_t{*std::max_element(groups.begin(), groups.end())} + 1;
   out.tree = join_pieces(segments.distance, segments.pixels, groups);
-  out.inferred = infer_nodes(measure_looks(oklab, segments.pieces), out.tree);
+  look_at_nodes(measure_looks(oklab, segments.pieces), out);
   out.pieces = enlarge_pieces(segments.pieces.of, picture, factor);
   for (std::size_t i = 0; i < alpha.size(); ++i)
     if (alpha[i] < 1.F) out.pieces[i] = no_piece;

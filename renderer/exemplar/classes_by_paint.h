@@ -30,22 +30,6 @@ PlaceClasses places_of(const GuidanceBuffers& guidance);
 // as on the map.
 Grid<std::uint8_t> classes_by_paint(const Grid<glm::vec3>& painting, const PlaceClasses& places);
 
-// A painting divided into pieces, to make a mask of its classes.
-struct PaintingSegments {
-  Grid<std::uint16_t> pieces;  // per pixel of the painting; no_piece where it is transparent
-  JoinTree tree;               // of the pieces
-  std::size_t groups = 0;      // number of groups found
-  std::vector<std::uint8_t> inferred;  // the class inferred for each node of the tree: a first
-                                       // estimate, for the user to correct
-};
-inline constexpr std::uint16_t no_piece = std::numeric_limits<std::uint16_t>::max();
-
-// `picture` encoded sRGB, `alpha` empty or of its size. Groups of `theta` are nodes of the tree.
-// Error(input) that names `path`, for pictures under 32 pixels on a side, of one colour, or
-// transparent everywhere.
-PaintingSegments segment_painting(const Grid<glm::vec3>& picture, const Grid<float>& alpha,
-                                  double theta, const std::string& path);
-
 // Appearance of a part of a painting: means over its pixels.
 struct PartLook {
   glm::dvec3 oklab{0.0};
@@ -56,6 +40,26 @@ struct PartLook {
   double rough = 1.0;  // both together relative to the whole painting's: sky is the smoothest part
                        // of a painting
 };
+
+// A painting divided into pieces, to make a mask of its classes.
+struct PaintingSegments {
+  Grid<std::uint16_t> pieces;  // per pixel of the painting; no_piece where it is transparent
+  JoinTree tree;               // of the pieces
+  std::size_t groups = 0;      // number of groups found
+  // Of each node of the tree: its look, its pixels in the reduced picture, and the class inferred
+  // from the look: a first estimate, for the user to correct.
+  std::vector<PartLook> looks;
+  std::vector<double> pixels;
+  std::vector<std::uint8_t> inferred;
+};
+inline constexpr std::uint16_t no_piece = std::numeric_limits<std::uint16_t>::max();
+
+// `picture` encoded sRGB, `alpha` empty or of its size. Groups of `theta` are nodes of the tree.
+// Error(input) that names `path`, for pictures under 32 pixels on a side, of one colour, or
+// transparent everywhere.
+PaintingSegments segment_painting(const Grid<glm::vec3>& picture, const Grid<float>& alpha,
+                                  double theta, const std::string& path);
+
 // Infers a class id from the appearance: sky is above, smooth, blue or bright; water is blue and
 // low or painted horizontally; snow is bright and grey, forest is dark and green or olive, and so
 // on.

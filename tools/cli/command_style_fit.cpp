@@ -25,7 +25,7 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr std::size_t inferred_groups = 30;  // the default of `exemplar segment`
+constexpr std::size_t inferred_groups = 30;  // as few as hold one class each: nobody corrects them
 
 struct StyleFitOptions : RunOptions {
   std::string painting, classes, out, report, name, origin, licence;

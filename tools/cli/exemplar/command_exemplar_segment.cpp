@@ -19,6 +19,7 @@
 #include "base/text/json.h"
 #include "base/text/text_encoding.h"
 #include "renderer/exemplar/classes_by_paint.h"
+#include "renderer/exemplar/name_questions.h"
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
@@ -52,8 +53,15 @@ std::string runs_of(const Grid<std::uint16_t>& pieces) {
   return out;
 }
 
-std::string script_data(const std::string& mask_name, const Grid<glm::vec3>& picture,
-                        const PaintingSegments& segments, std::size_t groups) {
+// What the page begins with.
+struct PageContents {
+  std::string title, mask, names;  // of files
+  NamedGroups groups;
+  NameQuestions questions;
+};
+
+std::string script_data(const PageContents& contents, const Grid<glm::vec3>& picture,
+                        const PaintingSegments& segments) {
   Json joins = Json::array();
   for (const auto& join : segments.tree.joins) joins.add(Json::numbers(join));
   Json classes = Json::array();
@@ -66,8 +74,12 @@ std::string script_data(const std::string& mask_name, const Grid<glm::vec3>& pic
       Json::object()
           .add("width", Json::number(picture.width()))
           .add("height", Json::number(picture.height()))
-          .add("mask", Json::text(mask_name))
-          .add("groups", Json::numbers(cut_nodes(segments.tree, groups)))
+          .add("mask", Json::text(contents.mask))
+          .add("names", Json::text(contents.names))
+          .add("groups", Json::numbers(contents.groups.nodes))
+          .add("named", Json::numbers(contents.groups.named))
+          .add("shows", Json::numbers(contents.groups.classes))
+          .add("questions", Json::numbers(contents.questions.of_group))
           .add("inferred", Json::numbers(segments.inferred))
           .add("joins", std::move(joins))
           .add("classes", std::move(classes))
@@ -77,22 +89,23 @@ std::string script_data(const std::string& mask_name, const Grid<glm::vec3>& pic
           .str());
 }
 
-// A self-contained page without network access: the painting with the borders of its groups,
-// `groups` of them at first, which clicks and keys merge, split and name; undo; the mask as a file
-// that `[[exemplar]]` reads. Throws Error(output).
-void write_segment_page(const std::string& path, const std::string& title,
-                        const std::string& mask_name, const Grid<glm::vec3>& picture,
-                        const PaintingSegments& segments, std::size_t groups) {
+// A self-contained page without network access: the painting with the borders of its groups, which
+// clicks and keys merge, split and name; questions of what like groups show; undo; the mask as a
+// file that `[[exemplar]]` reads, and what was said as one that this command reads. Throws
+// Error(output).
+void write_segment_page(const std::string& path, const PageContents& contents,
+                        const Grid<glm::vec3>& picture, const PaintingSegments& segments) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const int factor = (picture.width() + widest_shown - 1) / widest_shown;
   const std::string text =
       filled_page(embedded_file("segment/index.html"),
-                  {{"title", markup_text(title)},
-                   {"mask", markup_text(mask_name)},
+                  {{"title", markup_text(contents.title)},
+                   {"mask", markup_text(contents.mask)},
+                   {"names", markup_text(contents.names)},
                    {"width", fmt::format("{}", (picture.width() + factor - 1) / factor)},
                    {"height", fmt::format("{}", (picture.height() + factor - 1) / factor)},
                    {"css", std::string(embedded_file("segment/segment.css"))},
-                   {"data", script_data(mask_name, picture, segments, groups)},
+                   {"data", script_data(contents, picture, segments)},
                    {"groups", std::string(embedded_file("segment/groups.js"))},
                    {"page", std::string(embedded_file("segment/segment.js"))}});
   write_text_file(path, text);
@@ -101,9 +114,9 @@ void write_segment_page(const std::string& path, const std::string& title,
 using Colours = std::vector<std::array<std::uint8_t, 3>>;
 
 struct SegmentOptions : RunOptions {
-  std::string painting, out, page, compare;
+  std::string painting, out, page, compare, names;
   std::optional<double> theta;  // none: as many groups as `most`
-  int max = 30;
+  int max = 60;
   bool numbers = false;
 };
 
@@ -150,6 +163,15 @@ Agreement agreement_with(const SegmentOptions& options, const PaintingSegments& 
   return {segment_agreement(group, labels), segment_agreement(named, labels)};
 }
 
+// What was said of the painting: in the named file, or in that beside it.
+std::vector<PlaceName> names_said(const SegmentOptions& options, const std::string& beside) {
+  if (options.numbers && !options.names.empty())
+    throw Error(ErrorKind::usage, "--names", "--numbers writes no names", "one of the two");
+  if (!options.names.empty()) return read_place_names(options.names);
+  if (options.numbers || !std::filesystem::exists(beside)) return {};
+  return read_place_names(beside);
+}
+
 int run(const SegmentOptions& options) {
   if (lower_extension(options.out) != ".png")
     throw Error(ErrorKind::usage, "--out", options.out, "a .png");
@@ -159,6 +181,9 @@ int run(const SegmentOptions& options) {
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
+  const std::string names =
+      std::filesystem::path(options.painting).replace_extension(".names.toml").string();
+  const std::vector<PlaceName> said = names_said(options, names);
   Grid<float> alpha;
   const Grid<glm::vec3> picture = read_painting(options.painting, progress, &alpha);
   progress.begin("segmenting", 0.0);
@@ -167,12 +192,15 @@ int run(const SegmentOptions& options) {
   // Merging two groups takes a click, while a group of two things must be split first. So without a
   // given limit of dissimilarity, rather more groups are made than were found.
   const std::size_t found = options.theta ? segments.groups : segments.tree.pieces;
-  const std::size_t groups = std::min(found, static_cast<std::size_t>(options.max));
-  std::vector<std::uint8_t> classes = inferred_class_of(segments, groups);
+  const NamedGroups named =
+      name_groups(segments, std::min(found, static_cast<std::size_t>(options.max)), said);
+  const std::size_t groups = named.nodes.size();
+  const NameQuestions questions = ask_names(segments, named.nodes);
+  std::vector<std::uint8_t> classes = named.classes;
   std::map<std::string, int> shown;
   for (const std::uint8_t id : classes)
-    ++shown[std::string(class_name(static_cast<LandCoverClass>(id)))];
-  const Partition partition = cut_tree(segments.tree, groups);
+    if (id != unused_label) ++shown[std::string(class_name(static_cast<LandCoverClass>(id)))];
+  const Partition& partition = named.of_pieces;
   std::optional<Agreement> agreement;
   if (!options.compare.empty())
     agreement = agreement_with(options, segments, partition, classes, progress);
@@ -181,8 +209,10 @@ int run(const SegmentOptions& options) {
   const Grid<std::uint8_t> mask = class_mask(segments, partition, classes);
   image_io::write_palette_png(options.out, mask, colours_of(options, mask, picture));
   if (!options.page.empty())
-    write_segment_page(options.page, file_name(options.painting), file_name(options.out), picture,
-                       segments, groups);
+    write_segment_page(
+        options.page,
+        {file_name(options.painting), file_name(options.out), file_name(names), named, questions},
+        picture, segments);
   progress.end();
   if (options.json) {
     Json inferred = Json::object();
@@ -191,6 +221,7 @@ int run(const SegmentOptions& options) {
                     .add("out", Json::text(options.out))
                     .add("pieces", Json::number(static_cast<double>(segments.tree.pieces)))
                     .add("groups", Json::number(static_cast<double>(groups)))
+                    .add("questions", Json::number(static_cast<double>(questions.count)))
                     .add("inferred", std::move(inferred));
     if (agreement)
       told.add("agreement",
@@ -243,7 +274,7 @@ Action add_exemplar_segment(CommandOptions& command) {
   command
       .add_option("--max-groups", options->max,
                   "Number of groups; the most similar are joined. With --groups an upper limit. "
-                  "Default: 30")
+                  "Default: 60")
       .type_name("N")
       .range(1, 254);
   command.add_flag("--numbers", options->numbers,
@@ -255,11 +286,19 @@ Action add_exemplar_segment(CommandOptions& command) {
                   "agree with it")
       .type_name("MASK")
       .files(FileUse::input);
+  command
+      .add_option("--names", options->names,
+                  "What a person said that places show, as the page saves it. Default: the file "
+                  "beside the painting that ends with .names.toml, if there is one")
+      .type_name("FILE")
+      .files(FileUse::input);
   add_run_options(command, *options);
   command.footer(
       "Finds groups of similar paint in a painting, to be merged and named by a person who "
       "recognizes what is painted. The\n"
-      "classes that the mask begins with are inferred from position, colour and strokes.\n"
+      "classes that the mask begins with are inferred from position, colour and strokes. Only sky "
+      "is ever certain: for the\n"
+      "rest the page asks, one question for all groups that look alike.\n"
       "\n"
       "  belvedere exemplar segment painting.jpg --out mask.png --report groups.html");
   return [options] { return run(*options); };

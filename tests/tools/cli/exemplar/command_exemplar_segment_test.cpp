@@ -52,6 +52,29 @@ TEST_F(ExemplarSegment, WritesAMaskOfClassesThatAnExemplarTakes) {
       Prints(AllOf(HasSubstr("forest"), HasSubstr("pasture"), Not(HasSubstr("class 255")))));
 }
 
+// What the page saved beside the painting counts in the next run.
+TEST_F(ExemplarSegment, WhatWasSaidOfPlacesIsKeptBesideThePainting) {
+  const std::string painting = write_painting();
+  const std::vector<std::string> segment = {"exemplar",    "segment",      painting, "--out",
+                                            path("m.png"), "--max-groups", "3",      "-q"};
+  const auto mask = [&](const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = segment;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(arguments).status, 0);
+    return read_grey(path("m.png"));
+  };
+  EXPECT_EQ(mask()(20, 70), 4);
+  write("painting.names.toml", "[[named]]\nat = [0.2, 0.8]\nclass = \"shrub\"\n");
+  EXPECT_EQ(mask()(20, 70), 11);
+  EXPECT_EQ(mask()(100, 70), 10);
+  const std::string other =
+      write("other.toml", "[[named]]\nat = [0.2, 0.8]\nclass = \"not used\"\n");
+  EXPECT_EQ(mask({"--names", other})(20, 70), 255);
+  EXPECT_THAT(
+      run({"exemplar", "segment", painting, "--out", path("m.png"), "--names", other, "--numbers"}),
+      Ends(2, HasSubstr("--names")));
+}
+
 TEST_F(ExemplarSegment, NumbersOfGroupsAreAtMostThoseAskedFor) {
   ASSERT_EQ(run({"exemplar", "segment", write_painting(), "--out", path("m.png"), "--numbers",
                  "--max-groups", "3", "-q"})
@@ -103,7 +126,7 @@ TEST_F(ExemplarSegment, ThereAreAsManyGroupsAsTheMostUnlessToldHowUnlike) {
     const Grid<std::uint16_t> mask = read_grey(path("m.png"));
     return std::set<std::uint16_t>(mask.begin(), mask.end()).size();
   };
-  EXPECT_EQ(groups({}), 30U);
+  EXPECT_EQ(groups({}), 60U);
   EXPECT_EQ(groups({"--max-groups", "7"}), 7U);
   EXPECT_LT(groups({"--groups", "3"}), 7U);
 }
@@ -183,7 +206,8 @@ TEST_F(SegmentPage, HoldsPaintingPiecesTreeAndClassesAndNeedsNoNetwork) {
   const std::string page = made_page();
   EXPECT_THAT(page, AllOf(HasSubstr("\"width\": 120"), HasSubstr("\"height\": 90"),
                           HasSubstr("\"mask\": \"mask.png\""), HasSubstr("data:image/png;base64,"),
-                          HasSubstr("\"joins\""), HasSubstr("\"alpine_grass\"")));
+                          HasSubstr("\"joins\""), HasSubstr("\"alpine_grass\""),
+                          HasSubstr("\"questions\""), HasSubstr("painting.names.toml")));
   EXPECT_EQ(page.find("http"), std::string::npos) << "the page must need no network";
 }
 
@@ -205,6 +229,14 @@ constexpr const char* segment_clicks = R"(<pre id="clicked"></pre><script>
   const press = (id) => document.getElementById(id).click();
 
   say(`begins with ${rows().length}: ${names()}.`);
+  const question = () => document.getElementById("asked").textContent;
+  const asks = question();
+  const shows = document.getElementById("shows");
+  shows.value = [...shows.options].find((option) => option.text === "shrub").value;
+  press("answer");
+  say(`answered: ${question() !== asks}, ${names().includes("shrub")}, ${namesFile(groups, pieces, 120, 90, () => "shrub").includes('class = "shrub"')}.`);
+  press("undo");
+  say(`asks again: ${question() === asks}.`);
   const plain = picture();
   click(20, 70);
   say(`click: ${told()}, marked ${picture() !== plain}, chosen row ${rows().findIndex((row) => row.className === "chosen") + 1}.`);
@@ -268,10 +300,11 @@ TEST_F(SegmentPage, ClicksAndKeysMergeSplitNameAndUndo) {
   ASSERT_NE(from, std::string::npos) << page.substr(0, 2000);
   const std::string said = page.substr(from, page.find("</pre>", from) - from);
   for (const char* line :
-       {"begins with 3: sky,pasture,forest.", "click: group 3: forest, marked true, chosen row 3.",
-        "shift: 2: sky,forest.", "undone: 3: sky,pasture,forest.", "done again: 2.",
-        "m: 2: sky,pasture.", "split of what was merged: 3: sky,pasture,pasture.",
-        "split of the sky: 4.", "and again: 5.", "arrow: row 2.", "named: not used,glacier,forest.",
+       {"begins with 3: sky,pasture,forest.", "answered: true, true, true.", "asks again: true.",
+        "click: group 3: forest, marked true, chosen row 3.", "shift: 2: sky,forest.",
+        "undone: 3: sky,pasture,forest.", "done again: 2.", "m: 2: sky,pasture.",
+        "split of what was merged: 3: sky,pasture,pasture.", "split of the sky: 4.",
+        "and again: 5.", "arrow: row 2.", "named: not used,glacier,forest.",
         "saved mask.png blob:", "all undone: 3: sky,pasture,forest, true.", "done"})
     EXPECT_THAT(said, HasSubstr(line));
   // The masks of the page, packed and stored, are read back unchanged.
