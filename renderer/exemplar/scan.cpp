@@ -276,7 +276,7 @@ const Grid<std::uint8_t>& values_of(const GuideStack& guides, const char* name) 
   return found == nullptr ? none : *found;
 }
 
-// Tone and cast shadow, where guidance does not know them exactly.
+// Tone, cast shadow and valleys, where guidance does not know them exactly.
 void find_light(const SceneExemplar& settings, Raw& raw, Progress& progress) {
   GuidanceBuffers& guidance = raw.guidance;
   const bool registered = raw.measured && !raw.painted;
@@ -287,13 +287,9 @@ void find_light(const SceneExemplar& settings, Raw& raw, Progress& progress) {
                     raw.labels);
   else if (guidance.tone.empty())
     guidance.tone = estimate_tone(raw.picture, raw.labels, settings.stroke_px);
-  if (registered && settings.shadow.empty()) {
-    if (settings.found_shadow == "guide" && !guidance.shadow.empty()) {
-      guidance.shadow = shadow_share(guidance.shadow, raw.labels);
-      return;
-    }
-    guidance.shadow = {};
-  }
+  if (!raw.measured) guidance.valley_height_m = find_valley_height(raw.labels);
+  // Shadow is where the painter put it, not where the sun would have.
+  if (registered && settings.shadow.empty()) guidance.shadow = {};
   if (!guidance.shadow.empty() || settings.found_shadow == "ignore") return;
   guidance.shadow = find_shadow(raw.picture, raw.labels, settings.stroke_px);
   std::size_t shaded = 0;

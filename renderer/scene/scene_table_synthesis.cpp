@@ -240,8 +240,9 @@ std::vector<SceneSection> make_exemplar_sections() {
                {.name = "found_shadow",
                 .field = AT(exemplars[i].found_shadow),
                 .meaning = "What happens to pixels that are dark and cool for their class, if no "
-                           "image or guidance gives the shadow: guide uses them for shaded ground, "
-                           "exclude never copies from them, ignore treats them like any other.",
+                           "image gives the shadow and the program did not paint the picture: "
+                           "guide uses them for shaded ground, exclude never copies from them, "
+                           "ignore treats them like any other.",
                 .text = TextKind::choice,
                 .choices = {"guide", "exclude", "ignore"}},
                {.name = "exclude",

@@ -33,18 +33,20 @@ Grid<float> combine_tone(const Grid<glm::vec3>& picture, const Grid<std::uint8_t
 // sun behind the viewer, and a label in shade stays in shade.
 Grid<float> spread_tone(Grid<float> tone, const Grid<std::uint8_t>& labels);
 
-// Cast shadow of a painting of which only picture (encoded sRGB) and labels are known, as the guide
-// of that name: 0 in shadow … 1 lit. Structures larger than strokes (sigma stroke_px) of a label
-// are split into two groups, dark and light (Otsu's threshold on lightness and blueness in OKLab);
-// the dark group is shadow if it is clearly darker and bluer than the light one, otherwise the
-// whole label is lit: deep green forest is dark, not shaded. Texels of unused_label are lit.
+// Cast shadow of a painting, as the painter shows it, from picture (encoded sRGB) and labels alone,
+// as the guide of that name: 0 in shadow … 1 lit. In each label, blurred by a quarter of stroke_px
+// (sigma), shadow is what is dark, blue and little green for the range of its paint; if it is not
+// clearly darker and bluer than the rest, the whole label is lit: deep green forest is dark, not
+// shaded. Texels of unused_label are lit. Beside pictures of the program whose shadows are known,
+// F1 is .52 … .80: slopes that the sun grazes are painted as dark as shadow.
 Grid<float> find_shadow(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& labels,
                         double stroke_px);
 
-// The lit share, 0…1, of the ground around each texel: `shadow` averaged over a fortieth of the
-// picture's width (sigma), over texels of any label but unused_label. The place of a cast shadow on
-// the ground of a registered painting is not known to its own width, its share of a region is.
-Grid<float> shadow_share(const Grid<float>& shadow, const Grid<std::uint8_t>& labels);
+// Height above the valley floor, m, of a painting of which only the labels are known: 0 on water,
+// valley floor and settlement, 60 where 8 % of the ground near by (Gaussian, 3/800 of the width) is
+// such ground, at most 600. Empty without such ground. Beside pictures of the program, F1 of ground
+// under 60 m is .57 … .75.
+Grid<float> find_valley_height(const Grid<std::uint8_t>& labels);
 
 // Value from which a texel counts as sunlit.
 inline constexpr float lit_from = 0.5F;

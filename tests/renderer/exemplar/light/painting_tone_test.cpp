@@ -298,20 +298,36 @@ TEST(FindShadow, ShadedGroundIsCopiedFromShadedGround) {
   EXPECT_LT(agreement(0.0), 0.85);
 }
 
-// Of ground whose shadows lie some pixels off, the lit share of a region is right.
-TEST(ShadowShare, IsThatOfTheRegion) {
-  Grid<std::uint8_t> labels(160, 120, 7);
-  Grid<float> shadow(160, 120, 1.F);
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x) {
-      if (y < 30) labels(x, y) = unused_label;  // the sky
-      if (x >= 80) shadow(x, y) = (x + y) % 4 == 0 ? 1.F : 0.F;
-      if (y < 30) shadow(x, y) = 0.F;
-    }
-  const Grid<float> share = shadow_share(shadow, labels);
-  EXPECT_NEAR(share(40, 31), 1.F, 1e-4F) << "the sky does not count";
-  EXPECT_NEAR(share(120, 80), 0.25F, 0.03F);
-  EXPECT_EQ(share(120, 10), 1.F);
+// Four fifths of the rock lie in shade.
+TEST(FindShadow, IsFoundWhereMostOfAClassIsShaded) {
+  const Shaded s = paint(blue_shade, 1, -0.3);
+  const Grid<float> shadow = find_shadow(s.picture, s.labels, 4.0);
+  double right = 0.0;
+  for (std::size_t i = 0; i < shadow.size(); ++i)
+    right += (shadow[i] < lit_from) == (s.truth[i] == 1) ? 1.0 : 0.0;
+  EXPECT_GT(right / static_cast<double>(shadow.size()), 0.95);
+}
+
+// A valley floor on the left, rock on the right, sky above: the blur has a deviation of one pixel.
+TEST(FindValleyHeight, RisesFromLevelGroundAndLeavesOutTheSky) {
+  Grid<std::uint8_t> labels(267, 60, 7);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 267; ++x)
+      if (y < 20)
+        labels(x, y) = unused_label;
+      else if (x < 100)
+        labels(x, y) = 2;
+  const Grid<float> height = find_valley_height(labels);
+  EXPECT_NEAR(height(50, 40), 0.F, 0.1F);
+  // 30 % of what lies around the first pixel of rock is level: 60 ln .30 / ln .08.
+  EXPECT_NEAR(height(100, 40), 28.6F, 3.F);
+  EXPECT_NEAR(height(101, 40), 67.F, 8.F);
+  EXPECT_EQ(height(150, 40), 600.F);
+  EXPECT_NEAR(height(100, 20), height(100, 40), 0.5F) << "the sky is no ground";
+}
+
+TEST(FindValleyHeight, IsUnknownWithoutLevelGround) {
+  EXPECT_TRUE(find_valley_height(Grid<std::uint8_t>(40, 30, 7)).empty());
 }
 
 }  // namespace
