@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/common.hpp>
 #include <limits>
 #include <optional>
 
@@ -17,6 +16,7 @@
 #include "renderer/exemplar/fill_excluded.h"
 #include "renderer/exemplar/harmonize.h"
 #include "renderer/exemplar/light/painting_tone.h"
+#include "renderer/exemplar/painted_edges.h"
 #include "renderer/exemplar/texture_models.h"
 #include "renderer/exemplar/uncertain_places.h"
 #include "renderer/image/guidance_io.h"
@@ -300,6 +300,14 @@ void find_light(const SceneExemplar& settings, Raw& raw, Progress& progress) {
                   100.0 * static_cast<double>(shaded) / static_cast<double>(raw.labels.size())));
 }
 
+// How far silhouettes of a registered painting may be from where it is painted: two deviations.
+Grid<float> silhouette_radius(Grid<float> deviation_px) {
+  constexpr float max_px = 24.F;
+  const auto best_px = static_cast<float>(best_registration * deviation_px.width());
+  for (float& px : deviation_px) px = std::clamp(2.F * std::max(px, best_px), 3.F, max_px);
+  return deviation_px;
+}
+
 ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double residual,
                             Progress& progress) {
   ScannedPainting scan;
@@ -314,7 +322,11 @@ ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double resid
   painted.exemplar.name = settings.picture;
   painted.exemplar.guides = make_guide_stack(guidance, guidance.land_cover);
   GuideStack& guides = painted.exemplar.guides;
-  if (!raw.deviation_px.empty()) average_over_places(raw.deviation_px, guides);
+  if (!raw.deviation_px.empty()) {
+    average_over_places(raw.deviation_px, guides);
+    guides.depth_m = snap_silhouettes(std::move(guides.depth_m), raw.picture,
+                                      silhouette_radius(raw.deviation_px));
+  }
   const bool has_distance = raw.measured || !settings.distance.empty();
   if (!has_distance)
     std::erase_if(guides.guides, [](const Guide& guide) { return guide.name == "distance"; });
@@ -401,103 +413,6 @@ void check_paintings(const LoadedScene& scene) {
         read_grey_share(guide);
     }
   }
-}
-
-namespace {
-
-// A painting's own light is often too faint to show relief, and much of it is in strokes, which
-// ramps leave out. The ramp gets at least this share of the palette's range of lightness (OKLab),
-// about its centre, with hue and saturation kept; stretched at most threefold.
-constexpr double min_range_share = 0.8;
-constexpr double largest_stretch = 3.0;
-ToneRamp stretch(const ToneRamp& ramp, const ToneRamp& target) {
-  const auto range = [](const ToneRamp& r) { return to_oklab(r.back()).x - to_oklab(r.front()).x; };
-  const double factor = std::clamp(min_range_share * range(target) / std::max(range(ramp), 1e-3),
-                                   1.0, largest_stretch);
-  double centre = 0.0;
-  for (const glm::vec3& colour : ramp)
-    centre += to_oklab(colour).x / static_cast<double>(ramp.size());
-  ToneRamp out = ramp;
-  for (glm::vec3& colour : out) {
-    glm::dvec3 lab = to_oklab(colour);
-    lab.x = std::clamp(centre + factor * (lab.x - centre), 0.0, 1.0);
-    colour = glm::clamp(from_oklab(lab), 0.F, 1.F);
-  }
-  return out;
-}
-
-glm::vec3 gradient_at(const std::vector<std::pair<double, glm::vec3>>& gradient, double position) {
-  for (std::size_t k = 1; k < gradient.size(); ++k)
-    if (position <= gradient[k].first) {
-      const double width = gradient[k].first - gradient[k - 1].first;
-      const double share = std::clamp((position - gradient[k - 1].first) / width, 0.0, 1.0);
-      return glm::mix(gradient[k - 1].second, gradient[k].second, static_cast<float>(share));
-    }
-  return gradient.back().second;
-}
-
-}  // namespace
-
-Palette take_colours(const Palette& palette, const std::vector<ScannedPainting>& scans,
-                     const std::vector<std::pair<LandCoverClass, LandCoverClass>>& fallback) {
-  Palette out = palette;
-  constexpr double usual_altitude_m =
-      1500.0;  // altitude at which palettes that change with altitude are compared
-  std::array<bool, land_cover_class_count> known{};
-  // Nearest distance: the scene sets the effect of air on it.
-  for (std::size_t id = 1; id < known.size(); ++id) {
-    ToneRamp sum{};
-    float texels = 0.F;
-    for (const ScannedPainting& scan : scans) {
-      const LabelRamps& fitted = scan.ramps[id];
-      if (fitted.ramps.empty()) continue;
-      const auto count = static_cast<float>(fitted.texels);
-      for (std::size_t t = 0; t < sum.size(); ++t) sum[t] += count * fitted.ramps.front()[t];
-      texels += count;
-    }
-    if (!(texels > 0.F)) continue;
-    known[id] = true;
-    for (glm::vec3& colour : sum) colour /= texels;
-    ToneRamp own{};
-    for (std::size_t t = 0; t < own.size(); ++t)
-      own[t] =
-          palette_colour(palette, static_cast<LandCoverClass>(id), usual_altitude_m, ramp_tones[t]);
-    out.classes[id].stops = {{0.0, stretch(sum, own)}};
-  }
-  const int classes = static_cast<int>(std::count(known.begin(), known.end(), true));
-  if (classes == 0) return palette;
-  ToneRamp shift{};
-  for (std::size_t id = 1; id < known.size(); ++id)
-    for (std::size_t t = 0; t < shift.size() && known[id]; ++t)
-      shift[t] += (out.classes[id].stops.front().ramp[t] -
-                   palette_colour(palette, static_cast<LandCoverClass>(id), usual_altitude_m,
-                                  ramp_tones[t])) /
-                  static_cast<float>(classes);
-  for (std::size_t id = 1; id < known.size(); ++id) {
-    if (known[id]) continue;
-    const auto stand_in = std::find_if(fallback.begin(), fallback.end(), [&](const auto& pair) {
-      return pair.first == static_cast<LandCoverClass>(id);
-    });
-    if (stand_in != fallback.end() && known[static_cast<std::size_t>(stand_in->second)]) {
-      out.classes[id].stops = out.classes[static_cast<std::size_t>(stand_in->second)].stops;
-      continue;
-    }
-    for (ClassPalette::Stop& stop : out.classes[id].stops)
-      for (std::size_t t = 0; t < shift.size(); ++t)
-        stop.ramp[t] = glm::clamp(stop.ramp[t] + shift[t], 0.F, 1.F);
-  }
-  for (const ScannedPainting& scan : scans) {
-    if (scan.sky.empty()) continue;
-    out.sky = scan.sky;
-    out.cloud_light = scan.cloud_light;
-    out.cloud_shade = scan.cloud_shade;
-    // Air has the sky's blue where it begins and the horizon's colour far away.
-    out.haze_near = gradient_at(scan.sky, 0.35);
-    out.haze_far = gradient_at(scan.sky, 0.8);
-    out.range_mist = gradient_at(scan.sky, 0.85);
-    break;
-  }
-  return out;
 }
 
 }  // namespace belvedere

@@ -50,6 +50,7 @@ tested_by = {
     "renderer/exemplar/example_sheet_plan":
         ("renderer/exemplar/example_sheet", "plans are tested beside the sheets they make: ExampleSheetPlan"),
     "renderer/exemplar/exemplar_files": ("renderer/exemplar/example_sheet", "files of a sheet beside the sheet they hold: ExemplarFiles"),
+    "renderer/exemplar/scan_colours": ("renderer/exemplar/scan", "palettes with the colours of the paintings read there"),
     "renderer/features/line_samples":
         ("renderer/features/drawn_features", "samples and widths, where lines are drawn: AStraightRoad…, AWallHides…"),
     "renderer/image/deflate": ("renderer/image/image_io", "packs tiles of TIFF and OpenEXR, whose own libraries read them back there"),

@@ -315,6 +315,9 @@ TEST_F(Scans, WhatIsNarrowerThanARegistrationIsExactIsNotTrusted) {
   EXPECT_EQ(labels(300, 40), unused_label);
   EXPECT_EQ(labels(620, 40), static_cast<std::uint8_t>(LandCoverClass::water));
   EXPECT_EQ(labels(900, 40), static_cast<std::uint8_t>(LandCoverClass::rock));
+  // The silhouette is where it is painted.
+  EXPECT_EQ(scan.painted.exemplar.guides.depth_m(900, 20), 900.F);
+  EXPECT_TRUE(std::isinf(scan.painted.exemplar.guides.depth_m(900, 19)));
   ASSERT_FALSE(scan.sky.empty());
   for (const auto& [height_share, colour] : scan.sky) EXPECT_NEAR(colour.z, 0.8F, 0.01F);
 }
