@@ -429,12 +429,4 @@ Grid<std::uint8_t> class_mask(const PaintingSegments& segments, const Partition&
   return mask;
 }
 
-std::vector<std::uint8_t> inferred_class_of(const PaintingSegments& segments, std::size_t count) {
-  const std::vector<std::uint16_t> nodes = cut_nodes(segments.tree, count);
-  std::vector<std::uint8_t> out;
-  out.reserve(nodes.size());
-  for (const std::uint16_t node : nodes) out.push_back(segments.inferred[node]);
-  return out;
-}
-
 }  // namespace belvedere

@@ -68,7 +68,5 @@ std::uint8_t infer_class(const PartLook& look);
 // The mask value of each pixel: the class of its group of pieces, unused_label for those without.
 Grid<std::uint8_t> class_mask(const PaintingSegments& segments, const Partition& groups,
                               const std::vector<std::uint8_t>& classes);
-// The inferred class of each group of a cut through the tree.
-std::vector<std::uint8_t> inferred_class_of(const PaintingSegments& segments, std::size_t count);
 
 }  // namespace belvedere

@@ -39,7 +39,7 @@ struct LikeGroups {
 };
 
 // How soon two are joined: small ones before large ones that are slightly more alike.
-double unlikeness(const LikeGroups& a, const LikeGroups& b, double all_pixels) {
+double dissimilarity(const LikeGroups& a, const LikeGroups& b, double all_pixels) {
   double squares = 0.0;
   for (std::size_t k = 0; k < look_axes; ++k)
     squares += (a.look[k] - b.look[k]) * (a.look[k] - b.look[k]);
@@ -55,20 +55,13 @@ void join_groups(LikeGroups& to, const LikeGroups& from) {
   to.groups.insert(to.groups.end(), from.groups.begin(), from.groups.end());
 }
 
-// The group, one of `nodes`, of each piece below a node.
+// The group, one of `nodes`, of each piece; nodes come after what they were joined from.
 Partition group_of_pieces(const JoinTree& tree, const std::vector<std::uint16_t>& nodes) {
-  std::vector<std::uint16_t> of(tree.pieces + tree.joins.size(), 0);
-  std::vector<std::size_t> open(nodes.begin(), nodes.end());
+  std::vector<std::uint16_t> of(tree.pieces + tree.joins.size(), no_piece);
   for (std::size_t k = 0; k < nodes.size(); ++k) of[nodes[k]] = static_cast<std::uint16_t>(k);
-  while (!open.empty()) {
-    const std::size_t node = open.back();
-    open.pop_back();
-    if (node < tree.pieces) continue;
-    for (const std::uint16_t part : tree.joins[node - tree.pieces]) {
-      of[part] = of[node];
-      open.push_back(part);
-    }
-  }
+  for (std::size_t k = tree.joins.size(); k-- > 0;)
+    if (const std::uint16_t group = of[tree.pieces + k]; group != no_piece)
+      for (const std::uint16_t part : tree.joins[k]) of[part] = group;
   of.resize(tree.pieces);
   return of;
 }
@@ -110,7 +103,7 @@ NameQuestions ask_names(const PaintingSegments& segments, const std::vector<std:
     std::size_t first = 0, second = 1;
     for (std::size_t a = 0; a < questions.size(); ++a)
       for (std::size_t b = a + 1; b < questions.size(); ++b) {
-        const double value = unlikeness(questions[a], questions[b], all_pixels);
+        const double value = dissimilarity(questions[a], questions[b], all_pixels);
         if (value >= least) continue;
         least = value;
         first = a;

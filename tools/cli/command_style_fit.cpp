@@ -10,6 +10,7 @@
 #include "base/text/text_encoding.h"
 #include "renderer/exemplar/classes_by_paint.h"
 #include "renderer/exemplar/complete_sky.h"
+#include "renderer/exemplar/name_questions.h"
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
@@ -39,9 +40,8 @@ Grid<std::uint8_t> read_classes(const StyleFitOptions& options) {
 Grid<std::uint8_t> inferred_classes(const std::string& painting, const Grid<glm::vec3>& picture,
                                     const Grid<float>& alpha) {
   const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, painting);
-  const std::size_t groups = std::min(segments.tree.pieces, inferred_groups);
-  return complete_sky(
-      class_mask(segments, cut_tree(segments.tree, groups), inferred_class_of(segments, groups)));
+  const NamedGroups groups = name_groups(segments, inferred_groups, {});
+  return complete_sky(class_mask(segments, groups.of_pieces, groups.classes));
 }
 
 std::string as_text(const StyleFitOptions& options, const Style& style, std::size_t bytes) {

@@ -12,6 +12,7 @@
 #include "base/land_cover_class.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "renderer/exemplar/name_questions.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/srgb.h"
 #include "tests/paths.h"
@@ -143,6 +144,10 @@ Grid<glm::vec3> bands() {
       out(x, y) = colours[part(y)] +
                   glm::vec3(static_cast<float>(random_index(20, 5, x / 2, y / 2)) / 400.F);
   return out;
+}
+
+std::vector<std::uint8_t> inferred_class_of(const PaintingSegments& segments, std::size_t count) {
+  return name_groups(segments, count, {}).classes;
 }
 
 TEST(PaintingSegments, ClassesAreGuessedByPlaceAndColour) {
