@@ -5,22 +5,15 @@ from .provider import Provider
 
 
 class Plugin:
-    """Registers the provider; there is no other interface, so that none is needed."""
+    """Registers the provider. There is no other interface, so that none is needed."""
 
-    def __init__(self):
-        self.provider = None
-
-    def initProcessing(self) -> None:
-        """What `qgis_process` calls, which has no windows."""
+    def initProcessing(self) -> None:  # what qgis_process calls, which has no windows
         self.provider = Provider()
         QgsApplication.processingRegistry().addProvider(self.provider)
 
-    def initGui(self) -> None:
-        """What the application calls."""
-        self.initProcessing()
+    initGui = initProcessing  # what the application calls
 
     def unload(self) -> None:
-        """What both call at the end."""
         QgsApplication.processingRegistry().removeProvider(self.provider)
 
 

@@ -2,50 +2,34 @@
 import re
 from typing import Dict, Iterable, List, NamedTuple, Optional
 
-# The words of data/features/classic.toml: each kind, and what else files call it.
-LINES: Dict[str, str] = {
-    "motorway": "motorway_link trunk trunk_link autobahn",
-    "main_road": "primary primary_link secondary secondary_link road_1 bundesstrasse",
-    "road": "tertiary tertiary_link unclassified residential living_street street strasse",
-    "track": "service farm_track forest_road forstweg fahrweg",
-    "path": "footway footpath trail steps bridleway hiking weg steig pfad",
-    "route": "tour gpx relation",
-    "railway": "rail train light_rail bahn",
-    "narrow_gauge": "funicular rack tram zahnradbahn standseilbahn",
-    "lift": "cable_car gondola chair_lift mixed_lift drag_lift t-bar j-bar platter aerialway "
-            "seilbahn sessellift",
-    "run_easy": "novice easy blue blau",
-    "run_intermediate": "intermediate red rot",
-    "run_difficult": "advanced expert difficult black schwarz",
-    "river": "fluss canal",
-    "stream": "brook bach ditch",
-    "coastline": "coast kueste",
-}
-AREAS: Dict[str, str] = {
-    "building": "house yes hut alpine_hut farm barn gebaeude",
-    "lake": "water reservoir pond see",
-    "river_area": "riverbank river_bed",
-    "sea": "ocean bay",
-    "glacier": "ferner kees gletscher",
-    "forest": "wood wald",
-    "scrub": "shrub heath krummholz",
-    "meadow": "grass grassland pasture wiese weide",
-    "fields": "farmland vineyard orchard acker weinberg",
-    "rock": "bare_rock cliff fels",
-    "scree": "shingle geroell",
-    "sand": "beach dune",
-    "snow": "firn neve",
-    "town": "city village hamlet residential_area settlement ort stadt dorf",
-}
-RUNS = ("run_easy", "run_intermediate", "run_difficult")  # of areas, too
+
+def _table(text: str) -> Dict[str, List[str]]:
+    rows = (row.split(":") for row in text.split(";"))
+    return {kind.strip(): also.split() for kind, also in rows}
+
+
+# The kinds of data/features/classic.toml, and what else files call them.
+LINES = _table("""motorway: motorway_link trunk trunk_link autobahn; main_road: primary primary_link
+secondary secondary_link road_1 bundesstrasse; road: tertiary tertiary_link unclassified residential
+living_street street strasse; track: service farm_track forest_road forstweg fahrweg; path: footway
+footpath trail steps bridleway hiking weg steig pfad; route: tour gpx relation; railway: rail train
+light_rail bahn; narrow_gauge: funicular rack tram zahnradbahn standseilbahn; lift: cable_car
+gondola chair_lift mixed_lift drag_lift t-bar j-bar platter aerialway seilbahn sessellift; run_easy:
+novice easy blue blau; run_intermediate: intermediate red rot; run_difficult: advanced expert
+difficult black schwarz; river: fluss canal; stream: brook bach ditch; coastline: coast kueste""")
+AREAS = _table("""building: house yes hut alpine_hut farm barn gebaeude; lake: water reservoir pond
+see; river_area: riverbank river_bed; sea: ocean bay; glacier: ferner kees gletscher; forest: wood
+wald; scrub: shrub heath krummholz; meadow: grass grassland pasture wiese weide; fields: farmland
+vineyard orchard acker weinberg; rock: bare_rock cliff fels; scree: shingle geroell; sand: beach
+dune; snow: firn neve; town: city village hamlet residential_area settlement ort stadt dorf""")
 POINTS = ("building", "town")
 
 TAGS = ("highway", "railway", "aerialway", "waterway", "piste:difficulty", "natural", "landuse",
         "water", "building", "place")
 COLUMNS = ("kind", "type", "class", "fclass", "category", "art")  # of other sources
-# Values of tags that the style knows as something else: residential is a road in highway alone.
-MEANT = {("landuse", "residential"): "town", ("landuse", "meadow"): "meadow",
-         ("water", "river"): "river_area", ("waterway", "riverbank"): "river_area"}
+# Values of tags that mean something else than the same word of the style.
+MEANT = {("landuse", "residential"): "town", ("water", "river"): "river_area",
+         ("waterway", "riverbank"): "river_area"}
 
 
 class Kinds(NamedTuple):
@@ -58,10 +42,10 @@ class Kinds(NamedTuple):
 
 def words_of(shape: str) -> Dict[str, str]:
     """All words for kinds of a shape ("line", "area" or "point"), and the kind of each."""
-    known = {"line": LINES, "area": AREAS, "point": AREAS}[shape]
-    rows = [(kind, also) for kind, also in known.items() if shape != "point" or kind in POINTS]
-    rows += [(kind, LINES[kind]) for kind in RUNS] if shape == "area" else []
-    return {word: kind for kind, also in rows for word in [kind, *also.split()]}
+    kinds = dict(LINES if shape == "line" else AREAS)
+    if shape == "point":
+        kinds = {kind: AREAS[kind] for kind in POINTS}
+    return {word: kind for kind, also in kinds.items() for word in [kind, *also]}
 
 
 def _text(value: str) -> str:
@@ -71,51 +55,31 @@ def _text(value: str) -> str:
 def of_column(column: str, values: Iterable[str], shape: str) -> List[Kinds]:
     """What a column with these values tells: a part for the words of the style, and one for each
     kind that its tag means otherwise."""
-    words, quoted = words_of(shape), '"' + column.replace('"', '""') + '"'
-    meant: Dict[str, List[str]] = {}
-    plain = []
+    words, parts = words_of(shape), {}
     for value in sorted(values):
-        kind = MEANT.get((column, value))
-        if kind and kind in words:
-            meant.setdefault(kind, []).append(value)
-        elif value in words and not kind:
-            plain.append(value)
-
-    def among(chosen: List[str]) -> str:
-        return f"{quoted} IN ({', '.join(_text(value) for value in chosen)})"
-
-    out = [Kinds("", column, among(plain))] if plain else []
-    return out + [Kinds(kind, "", among(chosen)) for kind, chosen in meant.items()]
+        kind = MEANT.get((column, value), "")
+        if (kind or value) in words:
+            parts.setdefault(kind, []).append(_text(value))
+    quoted = '"' + column.replace('"', '""') + '"'
+    return [Kinds(kind, "" if kind else column, f"{quoted} IN ({', '.join(chosen)})")
+            for kind, chosen in parts.items()]
 
 
-def of_tags(tags: Dict[str, Iterable[str]], shape: str) -> List[Kinds]:
-    """The same for tags in GDAL's column other_tags: a part for each kind."""
-    words = words_of(shape)
-    found: Dict[str, List[str]] = {}
-    for key in TAGS:
-        for value in sorted(tags.get(key, ())):
-            kind = MEANT.get((key, value)) or words.get(value)
-            if kind in words:
-                pattern = f'%"{key}"=>"{value}"%'
-                found.setdefault(kind, []).append(f'"other_tags" LIKE {_text(pattern)}')
-    return [Kinds(kind, "", " OR ".join(sql)) for kind, sql in found.items()]
+def of_tags(texts: Iterable[str], shape: str) -> List[Kinds]:
+    """The same for GDAL's column other_tags with these texts: a part for each kind."""
+    words, parts = words_of(shape), {}
+    tags = {tag for text in texts for tag in re.findall(r'"([^"]+)"=>"([^"]*)"', text)}
+    for key, value in sorted(tags):
+        kind = MEANT.get((key, value)) or words.get(value)
+        if key in TAGS and kind in words:
+            pattern = _text(f'%"{key}"=>"{value}"%')
+            parts.setdefault(kind, []).append(f'"other_tags" LIKE {pattern}')
+    return [Kinds(kind, "", " OR ".join(sql)) for kind, sql in parts.items()]
 
 
 def of_name(name: str, shape: str) -> Optional[str]:
     """The kind that the name of a layer tells, such as "Rivers of Tyrol"."""
     words = words_of(shape)
-    for word in re.findall(r"[a-zäöüß_-]+", name.lower()):
-        for form in (word, word[:-1] if word.endswith("s") else word, word[:-2]):
-            if form in words and form != "yes":
-                return words[form]
-    return None
-
-
-def tags_of(texts: Iterable[str]) -> Dict[str, set]:
-    """Keys and values of the tags in texts of other_tags."""
-    out: Dict[str, set] = {}
-    for text in texts:
-        for key, value in re.findall(r'"([^"]+)"=>"([^"]*)"', text):
-            if key in TAGS:
-                out.setdefault(key, set()).add(value)
-    return out
+    found = re.findall(r"[a-zäöüß_-]+", name.lower().replace("yes", ""))
+    forms = (form for word in found for form in (word, re.sub("s$", "", word), word[:-2]))
+    return next((words[form] for form in forms if form in words), None)

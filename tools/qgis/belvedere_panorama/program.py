@@ -2,49 +2,38 @@
 the feedback is cancelled the program is ended."""
 import json
 import os
-import queue
 import re
+import select
 import shlex
 import shutil
 import subprocess
-import threading
 from typing import Any, List, Optional
 
+from processing.core.ProcessingConfig import ProcessingConfig
 from qgis.core import QgsProcessingException, QgsProcessingFeedback
 
-try:  # only with a terminal does the program report shares of a stage; Windows has none
+try:
     import pty
-except ImportError:
+except ImportError:  # Windows, for which there is no program
     pty = None
 
 SETTING = "BELVEDERE_PROGRAM"
 INSTALL = (
-    "The program belvedere was not found. Install it (on Debian 12: tools/package, then "
-    "apt-get install ./build/release/belvedere_*.deb; see docs/installing.md), or name it in "
-    "Settings > Options > Processing > Providers > Belvedere, or in the environment variable "
-    "BELVEDERE_PROGRAM."
-)
-# Seconds in which the program may remove its unfinished files before it is killed.
-GRACE_S = 0.7
-# Files of the QGIS that runs this: another program has its own.
+    "The program belvedere was not found. Install it (on Debian 12: tools/package, then apt-get "
+    "install ./build/release/belvedere_*.deb; see docs/installing.md), or name it in Settings > "
+    "Options > Processing > Providers > Belvedere, or in the environment variable "
+    "BELVEDERE_PROGRAM.")
+GRACE_S = 0.7  # in which the program may remove its unfinished files before it is killed
+# They name files of the QGIS that runs this; another program has its own.
 FOREIGN_VARIABLES = ("GDAL_DATA", "GDAL_DRIVER_PATH", "PROJ_LIB", "PROJ_DATA", "PYTHONHOME")
 
-_bar = re.compile(r"(?P<stage>.+?) [█░]+ +(?P<percent>\d+) %")
-_waiting = re.compile(r"(?P<stage>.+) …$")
-
-
-def _setting() -> str:
-    try:
-        from processing.core.ProcessingConfig import ProcessingConfig
-    except ImportError:
-        return ""
-    return ProcessingConfig.getSetting(SETTING) or ""
+_stage = re.compile(r"(?P<stage>.+?) (?:…$|[█░]+ +(?P<percent>\d+) %)")
 
 
 def find() -> Optional[str]:
     """Path of the program: by the setting, the environment or the PATH; None if there is none."""
-    named = _setting() or os.environ.get(SETTING, "")
-    return shutil.which(named or "belvedere")
+    named = ProcessingConfig.getSetting(SETTING) or os.environ.get(SETTING)
+    return shutil.which(named or "belvedere") if pty else None
 
 
 class _Listener:
@@ -53,62 +42,40 @@ class _Listener:
     def __init__(self, feedback: QgsProcessingFeedback):
         self.feedback = feedback
         self.errors: List[str] = []
-        self._rest = b""
-        self._stage = ""
+        self._rest, self._stage = b"", ""
 
     def feed(self, data: bytes) -> None:
         *lines, self._rest = re.split(rb"[\r\n]+", self._rest + data)
         for line in lines:
             self._line(line.decode("utf-8", "replace").replace("\033[K", "").rstrip())
-        # A bar has no end of line as long as it is drawn again.
+        # The bar's line has no end as long as it is drawn again.
         self._progress(self._rest.decode("utf-8", "ignore").replace("\033[K", ""))
 
-    def end(self) -> None:
-        self.feed(b"\n")
-
     def _progress(self, line: str) -> bool:
-        bar = _bar.match(line)
-        stage = bar or _waiting.match(line)
-        if not stage:
-            return False
-        if stage["stage"] != self._stage:
-            self._stage = stage["stage"]
+        found = _stage.match(line)
+        if found and found["stage"] != self._stage:
+            self._stage = found["stage"]
             self.feedback.setProgressText(self._stage)
-        if bar:
-            self.feedback.setProgress(float(bar["percent"]))
-        return True
+        if found and found["percent"]:
+            self.feedback.setProgress(float(found["percent"]))
+        return bool(found)
 
     def _line(self, line: str) -> None:
         if not line or self._progress(line):
             return
-        if line.startswith("belvedere: "):
-            self.errors.append(line[len("belvedere: ") :])
-        elif self.errors:  # an error's further lines: what is allowed
-            self.errors.append(line)
+        if line.startswith("belvedere: ") or self.errors:  # further lines tell what is allowed
+            self.errors.append(line[len("belvedere: "):] if not self.errors else line)
         else:
             self.feedback.pushInfo(line)
 
 
 def _end(process: subprocess.Popen) -> None:
-    """Asks the program to stop, and kills it if it does not within the time of grace."""
     process.terminate()
     try:
         process.wait(GRACE_S)
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
-
-
-def _read(descriptor: int, name: str, lines: "queue.Queue") -> None:
-    """Passes on what a stream says, and at its end nothing: a thread for each stream."""
-    while True:
-        try:
-            data = os.read(descriptor, 65536)
-        except OSError:  # how a terminal ends
-            data = b""
-        lines.put((name, data))
-        if not data:
-            return
 
 
 def run(arguments: List[str], feedback: QgsProcessingFeedback) -> str:
@@ -119,53 +86,38 @@ def run(arguments: List[str], feedback: QgsProcessingFeedback) -> str:
         raise QgsProcessingException(INSTALL)
     feedback.pushCommandInfo(" ".join(shlex.quote(word) for word in ["belvedere", *arguments]))
     environment = {k: v for k, v in os.environ.items() if k not in FOREIGN_VARIABLES}
-    terminal, errors = pty.openpty() if pty else (None, subprocess.PIPE)
-    process = subprocess.Popen(
-        [path, *arguments],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=errors,
-        env=environment,
-        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
-    )
-    if pty:
-        os.close(errors)
-    said, output, listener = queue.Queue(), [], _Listener(feedback)
-    streams = {"out": process.stdout.fileno(), "err": terminal or process.stderr.fileno()}
-    threads = [
-        threading.Thread(target=_read, args=(descriptor, name, said), daemon=True)
-        for name, descriptor in streams.items()
-    ]
-    for thread in threads:
-        thread.start()
+    # Only on a terminal does the program tell the share of a stage that is done.
+    terminal, errors = pty.openpty()
+    process = subprocess.Popen([path, *arguments], stdin=subprocess.DEVNULL, env=environment,
+                               stdout=subprocess.PIPE, stderr=errors)
+    os.close(errors)
+    output, listener, streams = b"", _Listener(feedback), [process.stdout.fileno(), terminal]
     try:
         while streams:
             if feedback.isCanceled():
                 raise QgsProcessingException("Stopped: the program was ended by request.")
-            try:
-                name, data = said.get(timeout=0.05)
-            except queue.Empty:
-                continue
-            if not data:
-                del streams[name]
-            elif name == "err":
-                listener.feed(data)
-            else:
-                output.append(data)
-        listener.end()
+            for stream in select.select(streams, [], [], 0.05)[0]:
+                try:
+                    data = os.read(stream, 65536)
+                except OSError:  # how a terminal ends
+                    data = b""
+                if not data:
+                    streams.remove(stream)
+                elif stream == terminal:
+                    listener.feed(data)
+                else:
+                    output += data
+        listener.feed(b"\n")
         status = process.wait()
     finally:
         if process.poll() is None:
             _end(process)
-        for thread in threads:
-            thread.join(GRACE_S)  # before what they read is closed
         process.stdout.close()
-        if terminal is not None:
-            os.close(terminal)
+        os.close(terminal)
     if status != 0:
         text = "\n".join(listener.errors) or "The program gave no reason."
         raise QgsProcessingException(f"{text}\n(belvedere ended with status {status})")
-    return b"".join(output).decode("utf-8")
+    return output.decode("utf-8")
 
 
 def ask(arguments: List[str], feedback: QgsProcessingFeedback) -> Any:

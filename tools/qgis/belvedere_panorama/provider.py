@@ -1,10 +1,10 @@
 """The provider: its algorithms, its name and icon, and the setting that names the program."""
-import os
-
+from processing.core.ProcessingConfig import ProcessingConfig, Setting
 from qgis.core import QgsProcessingProvider
 from qgis.PyQt.QtGui import QIcon
 
 from . import program
+from .algorithm import ICON
 from .features_from_layers import FeaturesFromLayers
 from .generalize_dem import GeneralizeDem
 from .guidance_buffers import GuidanceBuffers
@@ -13,20 +13,8 @@ from .new_panorama import NewPanorama
 from .render_panorama import RenderPanorama
 from .view_on_map import ViewOnMap
 
-try:  # the page of options; without the plugin Processing there is none
-    from processing.core.ProcessingConfig import ProcessingConfig, Setting
-except ImportError:
-    ProcessingConfig = None
-
-ALGORITHMS = (
-    NewPanorama,
-    RenderPanorama,
-    GuidanceBuffers,
-    GeneralizeDem,
-    FeaturesFromLayers,
-    NamesFromLayer,
-    ViewOnMap,
-)
+ALGORITHMS = (NewPanorama, RenderPanorama, GuidanceBuffers, GeneralizeDem, FeaturesFromLayers,
+              NamesFromLayer, ViewOnMap)
 
 
 class Provider(QgsProcessingProvider):
@@ -38,26 +26,20 @@ class Provider(QgsProcessingProvider):
     def name(self) -> str:
         return "Belvedere"
 
-    def longName(self) -> str:
-        return "Belvedere panorama maps"
-
     def icon(self) -> QIcon:
-        return QIcon(os.path.join(os.path.dirname(__file__), "icon.svg"))
+        return QIcon(ICON)
 
     def load(self) -> bool:
-        if ProcessingConfig is not None:
-            ProcessingConfig.settingIcons[self.name()] = self.icon()
-            text = "Program (empty: belvedere on the PATH)"
-            ProcessingConfig.addSetting(
-                Setting(self.name(), program.SETTING, text, "", valuetype=Setting.FILE)
-            )
-            ProcessingConfig.readSettings()
+        text = "Program (empty: belvedere on the PATH)"
+        ProcessingConfig.settingIcons[self.name()] = self.icon()
+        ProcessingConfig.addSetting(
+            Setting(self.name(), program.SETTING, text, "", valuetype=Setting.FILE))
+        ProcessingConfig.readSettings()
         self.refreshAlgorithms()
         return True
 
     def unload(self) -> None:
-        if ProcessingConfig is not None:
-            ProcessingConfig.removeSetting(program.SETTING)
+        ProcessingConfig.removeSetting(program.SETTING)
 
     def loadAlgorithms(self) -> None:
         for algorithm in ALGORITHMS:

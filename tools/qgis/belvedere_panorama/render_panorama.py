@@ -2,113 +2,66 @@
 import os
 
 import numpy as np
-from qgis.core import (
-    QgsFeature,
-    QgsFields,
-    QgsGeometry,
-    QgsPointXY,
-    QgsProcessingContext,
-    QgsProcessingException,
-    QgsProcessingOutputFile,
-    QgsProcessingParameterBoolean,
-    QgsProcessingParameterFeatureSink,
-    QgsProcessingParameterFolderDestination,
-    QgsProcessingParameterNumber,
-    QgsRasterLayer,
-)
+from qgis import core
 
-from . import compat, guidance, program
-from .algorithm import Algorithm
+from . import compat, guidance_buffers, program
+from .algorithm import Algorithm, number, parameter, scene
 
-PICTURES = ("panorama.tif", "panorama.png")  # that QGIS shows
-INDEX_CHANNELS = ["altitude.V", "landcover.id"]
-
-
-def load_picture(path: str, name: str, context: QgsProcessingContext) -> None:
-    """Loads a picture, which has no place on the map, after the run."""
-    layer = QgsRasterLayer(path, name)
-    if not layer.isValid():
-        raise QgsProcessingException(f"{path}: QGIS cannot show this picture.")
-    context.temporaryLayerStore().addMapLayer(layer)
-    details = QgsProcessingContext.LayerDetails(name, context.project(), name)
-    context.addLayerToLoadOnCompletion(layer.id(), details)
+PICTURES = ("panorama_names.tif", "panorama_names.png", "panorama.tif", "panorama.png")
+INDEX_CHANNELS = ["Z", "altitude.V", "landcover.id"]
 
 
 class RenderPanorama(Algorithm):
     """The picture, and on request a point on the ground for every n-th pixel."""
 
-    NAME = "renderpanorama"
-    TITLE = "Render panorama"
+    NAME, TITLE = "renderpanorama", "Render panorama"
     HELP = (
         "Renders a scene. The folder gets panorama.tif, .png and .exr (or the formats of the "
-        "scene) and guidance.exr, which states what each pixel shows.\n"
+        "scene) and guidance.exr, which states what each pixel shows; the picture is loaded, the "
+        "one with names if there is one.\n"
         "<i>Index of pixels</i> is a layer of points: the ground that every n-th pixel shows, with "
         "column and row in the picture (from its upper left pixel, which is 0, 0), distance, "
         "altitude and class. On the map it leads from a place to its pixel and back.\n"
         "A draft has a third of the pixels per side and takes seconds. If the run is cancelled, "
-        "the program is ended."
-    )
+        "the program is ended.")
 
-    def initAlgorithm(self, _configuration=None) -> None:
-        self.add_scene()
-        self.add_changes(0)
-        self.addParameter(QgsProcessingParameterBoolean("DRAFT", "Draft", False))
-        self.addParameter(QgsProcessingParameterBoolean("LOAD", "Load the picture", True))
-        self.addParameter(
-            QgsProcessingParameterNumber(
-                "STEP", "Index of pixels: every n-th", compat.INTEGER, 8, False, 1, 1000
-            )
-        )
-        self.addParameter(QgsProcessingParameterFolderDestination("OUTPUT", "Folder"))
-        index = QgsProcessingParameterFeatureSink(
-            "INDEX", "Index of pixels", compat.POINTS, None, True, False
-        )
-        self.addParameter(index)
-        self.addOutput(QgsProcessingOutputFile("PANORAMA", "Picture"))
-        self.addOutput(QgsProcessingOutputFile("GUIDANCE", "Guidance buffers"))
+    def declare(self):
+        for name, text in (("PANORAMA", "Picture"), ("GUIDANCE", "Guidance buffers")):
+            self.addOutput(core.QgsProcessingOutputFile(name, text))
+        return [
+            *scene(0),
+            parameter("Boolean", "DRAFT", "Draft", False),
+            parameter("Boolean", "LOAD", "Load the picture", True),
+            number("STEP", "Index of pixels: every n-th", 8, 1, 1000),
+            parameter("FolderDestination", "OUTPUT", "Folder"),
+            parameter("FeatureSink", "INDEX", "Index of pixels", compat.POINTS, None, True, False)]
 
-    def processAlgorithm(self, parameters, context, feedback):
-        folder = self.parameterAsString(parameters, "OUTPUT", context)
-        words = ["render", *self.scene_words(parameters, context), "--out", folder]
-        draft = self.parameterAsBool(parameters, "DRAFT", context)
-        answer = program.ask(words + (["--draft"] if draft else []), feedback)
+    def work(self, feedback):
+        folder = self.text("OUTPUT")
+        asked = ["render", *self.scene_words(), "--out", folder]
+        answer = program.ask(asked + (["--draft"] if self.yes("DRAFT") else []), feedback)
         files = {os.path.basename(file["path"]): file["path"] for file in answer["files"]}
-        results = {"OUTPUT": folder, "GUIDANCE": files.get("guidance.exr")}
+        results = {"OUTPUT": folder, "GUIDANCE": files["guidance.exr"]}
         shown = [files[name] for name in PICTURES if name in files]
         if shown:
             results["PANORAMA"] = shown[0]
-            if self.parameterAsBool(parameters, "LOAD", context):
-                load_picture(shown[0], answer["scene"], context)
-        if parameters.get("INDEX"):
-            results["INDEX"] = self._write_index(files["guidance.exr"], parameters, context,
-                                                 feedback)
+            if self.yes("LOAD"):
+                guidance_buffers.load_picture(shown[0], answer["scene"], self.context)
+        if self.given("INDEX"):
+            results["INDEX"] = self._write_index(files["guidance.exr"], feedback)
         return results
 
-    def _write_index(self, path: str, parameters, context, feedback) -> str:
-        ground = guidance.read(path, INDEX_CHANNELS, feedback)
-        fields = QgsFields()
-        for name, kind in (("column", "integer"), ("row", "integer"), ("distance_m", "number"),
-                           ("altitude_m", "number"), ("class", "text")):
-            fields.append(compat.field(name, kind))
-        sink, layer = self.parameterAsSink(
-            parameters, "INDEX", context, fields, compat.WKB_POINT, ground.crs
-        )
-        step = self.parameterAsInt(parameters, "STEP", context)
-        # The middle of each square of pixels, so that all sides are treated alike.
-        rows, columns = np.nonzero(np.isfinite(ground.distance[step // 2 :: step,
-                                                               step // 2 :: step]))
-        for row, column in zip(rows * step + step // 2, columns * step + step // 2):
-            if feedback.isCanceled():
-                break
-            feature = QgsFeature(fields)
-            feature.setGeometry(QgsGeometry.fromPointXY(
-                QgsPointXY(ground.east[row, column], ground.north[row, column])
-            ))
-            feature.setAttributes([
-                int(column), int(row), round(float(ground.distance[row, column]), 1),
-                round(float(ground.others["altitude.V"][row, column]), 1),
-                ground.classes[int(ground.others["landcover.id"][row, column])],
-            ])
-            sink.addFeature(feature, compat.FAST_INSERT)
+    def _write_index(self, path: str, feedback) -> str:
+        ground, step = guidance_buffers.read(path, INDEX_CHANNELS, feedback), self.whole("STEP")
+        fields = {"column": "Int", "row": "Int", "distance_m": "Double", "altitude_m": "Double",
+                  "class": "String"}
+        add, layer = self.sink("INDEX", fields, compat.WKB_POINT, ground.crs)
+        first = step // 2  # the middle of each square of pixels
+        rows, columns = np.nonzero(np.isfinite(ground.east[first::step, first::step]))
+        for y, x in zip(rows * step + first, columns * step + first):
+            distance, altitude, cover = (ground.others[name][y, x] for name in INDEX_CHANNELS)
+            place = core.QgsPointXY(ground.east[y, x], ground.north[y, x])
+            add(core.QgsGeometry.fromPointXY(place), int(x), int(y), round(float(distance), 1),
+                round(float(altitude), 1), ground.classes[int(cover)])
         feedback.pushInfo(f"index of pixels: {len(rows)} points")
         return layer

@@ -5,19 +5,10 @@ import tempfile
 
 import numpy as np
 from osgeo import gdal, ogr
-from qgis.core import (
-    QgsFeature,
-    QgsFields,
-    QgsFillSymbol,
-    QgsGeometry,
-    QgsPointXY,
-    QgsProcessingException,
-    QgsProcessingParameterFeatureSink,
-    QgsProcessingParameterNumber,
-)
+from qgis import core
 
-from . import compat, guidance, program
-from .algorithm import Algorithm, Styler
+from . import compat, guidance_buffers, program
+from .algorithm import Algorithm, Error, number, parameter, scene
 
 MOST_CELLS = 800  # of the longer side of the map, if no cell is given
 MOST_STEPS = 64  # into which a pixel's side is divided
@@ -29,11 +20,13 @@ EDGE = 3.0
 def filled(colour: str, edge: str):
     """A style: areas of a colour, given as "r,g,b,a"."""
     def style(layer) -> None:
-        symbol = QgsFillSymbol.createSimple(
-            {"color": colour, "outline_color": edge, "outline_width": "0.4"}
-        )
-        layer.renderer().setSymbol(symbol)
+        layer.renderer().setSymbol(core.QgsFillSymbol.createSimple(
+            {"color": colour, "outline_color": edge, "outline_width": "0.4"}))
     return style
+
+
+STYLES = {"CONE": filled("255,214,90,40", "200,140,0,255"),
+          "VISIBLE": filled("240,120,30,110", "240,120,30,0")}
 
 
 def cells_of(east: np.ndarray, north: np.ndarray, footprint: np.ndarray, cell_m: float):
@@ -74,109 +67,81 @@ def polygons_of(seen: np.ndarray, left: float, top: float, cell_m: float):
     layer = source.CreateLayer("seen", None, ogr.wkbPolygon)
     gdal.Polygonize(band, band, layer, -1, [])
     for feature in layer:
-        geometry = QgsGeometry()
+        geometry = core.QgsGeometry()
         geometry.fromWkb(bytes(feature.GetGeometryRef().ExportToWkb()))
         yield geometry
 
 
-def cone_of(view: guidance.Guidance) -> QgsGeometry:
+def cone_of(view: guidance_buffers.Guidance) -> core.QgsGeometry:
     """The area between the outermost directions in which ground is seen, as far as the farthest;
     for parallel rays the outline of that ground."""
-    camera, ground = view.camera, np.isfinite(view.east)
-    dx, dy = view.east[ground] - camera.east, view.north[ground] - camera.north
-    if camera.projection == "oblique":
-        points = zip(view.east[ground][::7], view.north[ground][::7])
-        return QgsGeometry.fromMultiPointXY([QgsPointXY(*p) for p in points]).convexHull()
-    far = np.hypot(dx, dy).max()
-    turned = (np.degrees(np.arctan2(dx, dy)) - camera.azimuth + 180.0) % 360.0 - 180.0
+    ground = np.isfinite(view.east)
+    east, north = view.east[ground], view.north[ground]
+    if view.projection == "oblique":
+        points = [core.QgsPointXY(*p) for p in zip(east[::7], north[::7])]
+        return core.QgsGeometry.fromMultiPointXY(points).convexHull()
+    dx, dy = east - view.eye[0], north - view.eye[1]
+    distance = np.hypot(dx, dy)
+    turned = (np.degrees(np.arctan2(dx, dy)) - view.azimuth + 180.0) % 360.0 - 180.0
     # At the foot of the picture a camera that looks down sees ground to all sides.
-    ahead = turned[np.hypot(dx, dy) > 0.1 * far]
-    whole = camera.field >= 359.0
-    first, last = (-180.0, 180.0) if whole else (ahead.min(), ahead.max())
-    ring = [] if whole else [QgsPointXY(camera.east, camera.north)]
-    for direction in np.linspace(first, last, max(2, int(last - first) + 1)):
-        angle = math.radians(camera.azimuth + direction)
-        ring.append(QgsPointXY(camera.east + far * math.sin(angle),
-                               camera.north + far * math.cos(angle)))
-    return QgsGeometry.fromPolygonXY([[*ring, ring[0]]])
+    turned = turned[distance > 0.1 * distance.max()]
+    whole = view.field >= 359.0
+    first, last = (-180.0, 180.0) if whole else (turned.min(), turned.max())
+    angle = np.radians(view.azimuth + np.linspace(first, last, max(2, int(last - first) + 1)))
+    arc = zip(view.eye[0] + distance.max() * np.sin(angle),
+              view.eye[1] + distance.max() * np.cos(angle))
+    ring = [core.QgsPointXY(*p) for p in ([*arc] if whole else [view.eye[:2], *arc])]
+    return core.QgsGeometry.fromPolygonXY([[*ring, ring[0]]])
 
 
 class ViewOnMap(Algorithm):
     """Two layers of polygons in the scene's coordinates."""
 
-    NAME = "viewonmap"
-    TITLE = "View on map"
+    NAME, TITLE = "viewonmap", "View on map"
     HELP = (
         "Shows in plan what a panorama shows: the cone of view, from the viewer's position to the "
         "farthest ground, and the ground that is visible in the picture. Ground behind mountains, "
         "behind the horizon of the bent terrain and outside the picture is left out.\n"
         "Positions are those on the map, before ground is bent, raised or moved. A wider picture "
-        "gives finer outlines. Cells are the resolution of the outlines."
-    )
+        "gives finer outlines. Cells are the resolution of the outlines.")
+    ADVANCED = {*Algorithm.ADVANCED, "CELL"}
 
-    def initAlgorithm(self, _configuration=None) -> None:
-        self.add_scene()
-        self.add_changes(800)
-        self.add_advanced(
-            QgsProcessingParameterNumber(
-                "CELL", "Cells, m (0: an 800th of the map)", compat.DOUBLE, 0, False, 0, 10000
-            )
-        )
-        for name, text in (("CONE", "Cone of view"), ("VISIBLE", "Visible ground")):
-            self.addParameter(QgsProcessingParameterFeatureSink(name, text, compat.POLYGONS))
+    def declare(self):
+        return [
+            *scene(1000),
+            number("CELL", "Cells, m (0: an 800th of the map)", 0, 0, 10000, compat.DOUBLE),
+            parameter("FeatureSink", "CONE", "Cone of view", compat.POLYGONS),
+            parameter("FeatureSink", "VISIBLE", "Visible ground", compat.POLYGONS)]
 
-    def processAlgorithm(self, parameters, context, feedback):
+    def work(self, feedback):
         with tempfile.TemporaryDirectory() as folder:
-            words = ["guidance", *self.scene_words(parameters, context), "--out", folder]
-            program.ask([*words, "--channels", "Z,P.X,P.Y,footprint.V"], feedback)
+            asked = ["guidance", *self.scene_words(), "--out", folder]
+            program.ask([*asked, "--channels", "Z,P.X,P.Y,footprint.V"], feedback)
             path = os.path.join(folder, "guidance.exr")
-            view = guidance.read(path, ["footprint.V"], feedback)
+            view = guidance_buffers.read(path, ["footprint.V"], feedback)
         if not np.isfinite(view.east).any():
-            raise QgsProcessingException("The picture shows no ground.")
-        results = {
-            "CONE": self._write_cone(view, parameters, context),
-            "VISIBLE": self._write_visible(view, parameters, context, feedback),
-        }
-        Styler.of(context, results["CONE"], filled("255,214,90,40", "200,140,0,255"))
-        Styler.of(context, results["VISIBLE"], filled("240,120,30,110", "240,120,30,0"))
+            raise Error("The picture shows no ground.")
+        results = {"CONE": self._write_cone(view), "VISIBLE": self._write_visible(view, feedback)}
+        for name, style in STYLES.items():
+            self.styled(results[name], style)
         return results
 
-    def _sink(self, name: str, parameters, context, view, columns):
-        fields = QgsFields()
-        for column, kind in columns:
-            fields.append(compat.field(column, kind))
-        sink, layer = self.parameterAsSink(
-            parameters, name, context, fields, compat.WKB_POLYGON, view.crs
-        )
-
-        def write(geometry: QgsGeometry, values) -> None:
-            feature = QgsFeature(fields)
-            feature.setGeometry(geometry)
-            feature.setAttributes(values)
-            sink.addFeature(feature, compat.FAST_INSERT)
-
-        return write, layer
-
-    def _write_cone(self, view, parameters, context) -> str:
-        columns = [("projection", "text"), ("eye_m", "number"), ("azimuth_deg", "number"),
-                   ("field_deg", "number"), ("far_m", "number")]
-        write, layer = self._sink("CONE", parameters, context, view, columns)
-        camera = view.camera
-        far = float(np.nanmax(np.hypot(view.east - camera.east, view.north - camera.north)))
-        write(cone_of(view), [camera.projection, camera.altitude, camera.azimuth, camera.field,
-                              round(far, 1)])
+    def _write_cone(self, view: guidance_buffers.Guidance) -> str:
+        fields = {"projection": "String", "eye_m": "Double", "azimuth_deg": "Double",
+                  "field_deg": "Double", "far_m": "Double"}
+        add, layer = self.sink("CONE", fields, compat.WKB_POLYGON, view.crs)
+        far = float(np.nanmax(np.hypot(view.east - view.eye[0], view.north - view.eye[1])))
+        add(cone_of(view), view.projection, float(view.eye[2]), view.azimuth, view.field, far)
         return layer
 
-    def _write_visible(self, view, parameters, context, feedback) -> str:
-        cell = self.parameterAsDouble(parameters, "CELL", context)
-        if cell <= 0:
-            sides = (np.nanmax(v) - np.nanmin(v) for v in (view.east, view.north))
-            cell = max(sides) / MOST_CELLS
+    def _write_visible(self, view: guidance_buffers.Guidance, feedback) -> str:
+        sides = (np.nanmax(values) - np.nanmin(values) for values in (view.east, view.north))
+        cell = self.real("CELL") or max(sides) / MOST_CELLS
         cells = cells_of(view.east, view.north, view.others["footprint.V"], cell)
-        write, layer = self._sink("VISIBLE", parameters, context, view, [("area_km2", "number")])
+        add, layer = self.sink("VISIBLE", {"area_km2": "Double"}, compat.WKB_POLYGON, view.crs)
         total = 0.0
         for geometry in polygons_of(*cells, cell):
             total += geometry.area() / 1e6
-            write(geometry, [round(geometry.area() / 1e6, 4)])
+            add(geometry, round(geometry.area() / 1e6, 4))
         feedback.pushInfo(f"visible ground: {total:.1f} km²")
         return layer
