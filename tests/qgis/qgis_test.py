@@ -13,7 +13,7 @@ import tomllib
 import unittest
 import zipfile
 
-sys.dont_write_bytecode = True
+sys.dont_write_bytecode = True  # nothing is left in the checkout
 root = pathlib.Path(__file__).resolve().parents[2]
 program_path = os.environ.get("BELVEDERE_PROGRAM", str(root / "build/release/belvedere"))
 data = pathlib.Path(os.environ.get("BELVEDERE_DATA", root.parent / "shared/data"))
@@ -27,24 +27,17 @@ for missing, what in ((qgis_process, "QGIS (tools/setup qgis)"), (
     if not missing:
         print(f"SKIPPED, nothing of the QGIS plugin is tested: {what} is missing", file=sys.stderr)
         sys.exit(77)
-if "DISPLAY" not in os.environ:
-    os.environ["QT_QPA_PLATFORM"] = "offscreen"
-sys.path[:0] = [str(root / "tools/qgis"), "/usr/share/qgis/python/plugins"]
 
 import numpy as np  # noqa: E402
 from osgeo import gdal, ogr  # noqa: E402
 from qgis import core  # noqa: E402
+from start import start  # noqa: E402
 
-app = core.QgsApplication([], False)
-app.initQgis()
-import processing  # noqa: E402
+app, processing, provider = start()
 from belvedere_panorama import (  # noqa: E402
-    exr, features_from_layers, generalize_dem, kinds, legends, program, scene_file, view_on_map)
-from belvedere_panorama.provider import Provider  # noqa: E402
-from processing.core.Processing import Processing  # noqa: E402
+    exr, features_from_layers, generalize_dem, kinds, legends, new_panorama, program, scene_file,
+    view_on_map)
 
-Processing.initialize()
-app.processingRegistry().addProvider(provider := Provider())
 gdal.UseExceptions()
 dem, cover, scene = (str(folder / name) for name in ("dem.tif", "cover.tif", "scene.toml"))
 waters, ways = ({"type": "Feature", "properties": tags, "geometry": shape} for tags, shape in (
@@ -260,6 +253,8 @@ class Parts(unittest.TestCase):
             known = {int(code) for code in keys["codes"]}
             known |= {row["also"] for row in keys["codes"].values() if "also" in row}
             self.assertEqual((codes, legends.NO_DATA[name]), (known, set(keys["nodata"])), name)
+        styles = {path.stem for path in (root / "data/styles").glob("*.toml")}
+        self.assertEqual(set(new_panorama.STYLES[1:]), styles)
         style = tomllib.loads((root / "data/features/classic.toml").read_text(encoding="utf-8"))
         self.assertEqual({kind: row["also"] for kind, row in style["kinds"].items()},
                          {**kinds.LINES, **kinds.AREAS})
@@ -280,6 +275,7 @@ class Parts(unittest.TestCase):
         self.assertEqual([part.kind for part in kinds.of_tags(texts, "line")],
                          ["run_easy", "railway"])
         self.assertEqual(kinds.of_name("Rivers of Tyrol", "line"), "river")
+        self.assertEqual(kinds.of_name("Seen 2020", "area"), "lake")
         self.assertIsNone(kinds.of_name("Measurements", "line"))
         layer = core.QgsVectorLayer("LineString?field=type:string", "x", "memory")
         with self.assertRaisesRegex(core.QgsProcessingException, "Nothing tells"):

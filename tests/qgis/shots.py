@@ -1,24 +1,19 @@
 """Screenshots of the dialogs, and a map with the view of a scene, for docs/images:
 xvfb-run -s "-screen 0 1400x1000x24" /usr/bin/python3 tests/qgis/shots.py DEM SCENE FOLDER
 SCENE is one of New panorama. BELVEDERE_PROGRAM names the program."""
-import pathlib
 import sys
 
-sys.dont_write_bytecode = True
-root = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(root / "tools/qgis"), "/usr/share/qgis/python/plugins"]
-import qgis.utils  # noqa: E402
+sys.dont_write_bytecode = True  # nothing is left in the checkout
 from qgis import core, gui  # noqa: E402
 from qgis.PyQt.QtCore import QSize  # noqa: E402
-
-app = core.QgsApplication([], True)
-app.initQgis()
+from start import start  # noqa: E402
 
 
 class Interface:
-    """As much of the application's interface as dialogs ask for."""
+    """As much of the application's windows as dialogs ask for."""
 
-    canvas = gui.QgsMapCanvas()
+    def __init__(self):
+        self.canvas = gui.QgsMapCanvas()
 
     def mapCanvas(self):
         return self.canvas
@@ -27,14 +22,9 @@ class Interface:
         return lambda *_: None
 
 
-qgis.utils.iface = Interface()
-import processing  # noqa: E402
+app, processing, provider = start(Interface)
 from belvedere_panorama import generalize_dem, view_on_map  # noqa: E402
-from belvedere_panorama.provider import Provider  # noqa: E402
-from processing.core.Processing import Processing  # noqa: E402
 
-Processing.initialize()
-app.processingRegistry().addProvider(provider := Provider())
 dem, scene, folder = sys.argv[1:]
 ground = core.QgsRasterLayer(dem, "elevation")
 core.QgsProject.instance().addMapLayer(ground)

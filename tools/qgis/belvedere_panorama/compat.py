@@ -31,6 +31,7 @@ LINE_GEOMETRY = _first("Qgis.GeometryType.Line", "QgsWkbTypes.GeometryType.LineG
 ADVANCED, = _moved("ProcessingParameterFlag", "QgsProcessingParameterDefinition.Flag", "Advanced",
                    prefix="Flag")
 FOLDER, = _moved("ProcessingFileParameterBehavior", "QgsProcessingParameterFile.Behavior", "Folder")
+CUBIC = _first("Qgis.RasterResamplingMethod.Cubic", "QgsRasterDataProvider.ResamplingMethod.Cubic")
 RESAMPLE_FIRST = core.Qgis.RasterResamplingStage.Provider
 
 

@@ -1,8 +1,8 @@
 """Reads channels of a guidance.exr: OpenEXR of several tiled parts, packed by ZIP, as the program
 writes it (openexr.com/en/latest/OpenEXRFileLayout.html). GDAL in Debian reads no OpenEXR."""
+import mmap
 import struct
 import zlib
-from pathlib import Path
 from typing import Dict, Iterable, Tuple
 
 import numpy as np
@@ -11,7 +11,7 @@ _types = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 
 
 def _text(data: bytes, at: int) -> Tuple[str, int]:
-    end = data.index(b"\0", at)
+    end = data.find(b"\0", at)
     return data[at:end].decode("utf-8"), end + 1
 
 
@@ -57,7 +57,8 @@ def _unpacked(data: bytes, size: int) -> np.ndarray:
 def read(path: str, wanted: Iterable[str]) -> Dict[str, np.ndarray]:
     """The channels of these names, rows × columns. Throws ValueError for a file of another program,
     and for a channel that the file lacks."""
-    data = Path(path).read_bytes()
+    with open(path, "rb") as file:  # larger ones than memory, too, of which channels are read
+        data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
     magic, version = struct.unpack_from("<II", data)
     if magic != 20000630:
         raise ValueError(f"{path} is no OpenEXR file")

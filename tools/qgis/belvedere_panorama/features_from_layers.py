@@ -50,11 +50,9 @@ class FeaturesFromLayers(Algorithm):
 
     NAME, TITLE = "featuresfromlayers", "Features from layers"
     HELP = (
-        "Adds roads, railways, lifts, runs, rivers, lakes, areas and houses to a scene, from "
-        "layers of lines, polygons or points.\n"
+        "Adds roads, railways, lifts, runs, rivers, lakes, areas and houses of layers to a scene. "
         "What a layer holds is inferred from its OpenStreetMap columns (highway, waterway, natural "
-        "…), from other_tags, from a column such as kind, type or fclass, or from its name. The "
-        "log lists what was found, and what the program does with it: drawn, hidden, outside.")
+        "…), from other_tags, from a column such as kind, type or fclass, or from its name.")
 
     def declare(self):
         return [

@@ -15,8 +15,8 @@ def show_as_relief(layer: core.QgsRasterLayer) -> None:
     shaded, so that no cells show."""
     provider = layer.dataProvider()
     provider.enableProviderResampling(True)
-    provider.setZoomedInResamplingMethod(provider.ResamplingMethod.Cubic)
-    provider.setZoomedOutResamplingMethod(provider.ResamplingMethod.Cubic)
+    provider.setZoomedInResamplingMethod(compat.CUBIC)
+    provider.setZoomedOutResamplingMethod(compat.CUBIC)
     layer.setResamplingStage(compat.RESAMPLE_FIRST)
     layer.setRenderer(core.QgsHillshadeRenderer(provider, 1, 315.0, 45.0))
 
@@ -26,11 +26,9 @@ class GeneralizeDem(Algorithm):
 
     NAME, TITLE = "generalizedem", "Generalize DEM"
     HELP = (
-        "Simplifies an elevation layer and keeps its ridges sharp. The DEM is split into bands of "
-        "landform size; a weight for each band keeps it (1), removes it (0) or exaggerates it.\n"
-        "<i>smooth_slopes</i> smooths slopes, <i>bold_ridges</i> raises main ranges, "
-        "<i>panorama</i> changes from near to far and needs a viewer. The result is shown as "
-        "shaded relief. docs/generalization.md explains the weights.")
+        "Simplifies an elevation layer and keeps its ridges sharp; the result is shown as shaded "
+        "relief. A weight for each size of landforms keeps it (1), removes it (0) or exaggerates "
+        "it. <i>panorama</i> and <i>figure4</i> change from near to far and need a viewer.")
     ADVANCED = set(WEIGHTS)
 
     def declare(self):

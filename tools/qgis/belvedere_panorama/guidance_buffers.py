@@ -70,9 +70,7 @@ class GuidanceBuffers(Algorithm):
     NAME, TITLE = "guidancebuffers", "Guidance buffers"
     HELP = (
         "Writes guidance.exr: distance, altitude, class, slope, light and some thirty other values "
-        "of what each pixel of a panorama shows, without painting it. docs/guidance.md describes "
-        "each channel.\n"
-        "The named channels can also be loaded, as bands of guidance.tif.")
+        "of what each pixel of a panorama shows. The named channels can also be loaded.")
 
     def declare(self):
         self.addOutput(core.QgsProcessingOutputFile("GUIDANCE", "Guidance buffers"))

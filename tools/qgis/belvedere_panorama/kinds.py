@@ -81,5 +81,5 @@ def of_name(name: str, shape: str) -> Optional[str]:
     """The kind that the name of a layer tells, such as "Rivers of Tyrol"."""
     words = words_of(shape)
     found = re.findall(r"[a-zäöüß_-]+", name.lower().replace("yes", ""))
-    forms = (form for word in found for form in (word, re.sub("s$", "", word), word[:-2]))
+    forms = (form for word in found for form in (word, re.sub("[sne]$", "", word)))
     return next((words[form] for form in forms if form in words), None)

@@ -1,5 +1,4 @@
 """Which of the program's built-in legends a land-cover raster has, by its values and its name."""
-import os
 import re
 from typing import Dict, Optional, Set
 
@@ -38,8 +37,3 @@ def values_of(layer: QgsRasterLayer, band: int) -> Set[int]:
     cells = layer.dataProvider().block(band, layer.extent(), width, height)
     return {int(cells.value(y, x)) for y in range(height) for x in range(width)
             if not cells.isNoData(y, x)}
-
-
-def name_of(layer: QgsRasterLayer) -> str:
-    """What the names of layer and file say."""
-    return f"{layer.name()} {os.path.basename(layer.source())}"

@@ -4,7 +4,6 @@ import tempfile
 from pathlib import Path
 
 from osgeo import gdal
-from qgis import core
 
 from . import compat, layers, program, scene_file
 from .algorithm import Algorithm, Error, parameter, scene, scene_out, words
@@ -17,12 +16,10 @@ class NamesFromLayer(Algorithm):
 
     NAME, TITLE = "namesfromlayer", "Names from a layer"
     HELP = (
-        "Adds names to a scene: those of points stand at their marks, those of lines and areas "
-        "follow them. The names are written to a file beside the scene, and <i>Render panorama</i> "
-        "then also writes a picture with them.\n"
+        "Adds names to a scene, of which <i>Render panorama</i> then writes a second picture with "
+        "the names. Names of points stand at their marks, those of lines and areas follow them.\n"
         "Kinds are words of the style: summit, town, village, hut, pass, lake, river, glacier, "
-        "valley, range … Ranks are 1 (most important) to 9. The log says how many names find a "
-        "place.")
+        "valley, range … Ranks are 1 (most important) to 9.")
 
     def declare(self):
         return [

@@ -17,11 +17,10 @@ class NewPanorama(Algorithm):
 
     NAME, TITLE = "newpanorama", "New panorama"
     HELP = (
-        "Composes a panorama of an elevation layer and writes it as a scene, a text file that "
-        "<i>Render panorama</i> makes a picture of.\n"
-        "Without points the program proposes up to five views; choose one by its number, after a "
-        "look at the pictures of the proposals. With a point to stand the viewer is above it, with "
-        "a point to look at it is in the picture, with both the view goes from one to the other.")
+        "Composes a panorama of an elevation layer and writes it as a scene, of which <i>Render "
+        "panorama</i> makes a picture.\n"
+        "Without points the program proposes up to five views; choose one by its number. With a "
+        "point to stand the viewer is above it, with a point to look at it is in the picture.")
     ADVANCED = {"LAND_COVER_BAND", "LEGEND_FILE", "PLAIN"}
 
     def declare(self):
@@ -66,7 +65,7 @@ class NewPanorama(Algorithm):
             self.folders.append(os.path.dirname(path))
             return path
         values = legends.values_of(layer, band)
-        legend = legends.infer(values, legends.name_of(layer))
+        legend = legends.infer(values, f"{layer.name()} {os.path.basename(layer.source())}")
         if legend is None:
             some = ", ".join(map(str, sorted(values)[:12]))
             raise Error(f'No built-in legend has the values of "{layer.name()}": {some} … Choose '

@@ -7,7 +7,8 @@ from qgis import core
 from . import compat, guidance_buffers, program
 from .algorithm import Algorithm, number, parameter, scene
 
-PICTURES = ("panorama_names.tif", "panorama_names.png", "panorama.tif", "panorama.png")
+# That QGIS shows; PNG first, since it stretches the contrast of 16 bits.
+PICTURES = ("panorama_names.png", "panorama_names.tif", "panorama.png", "panorama.tif")
 INDEX_CHANNELS = ["Z", "altitude.V", "landcover.id"]
 
 
@@ -16,14 +17,10 @@ class RenderPanorama(Algorithm):
 
     NAME, TITLE = "renderpanorama", "Render panorama"
     HELP = (
-        "Renders a scene. The folder gets panorama.tif, .png and .exr (or the formats of the "
-        "scene) and guidance.exr, which states what each pixel shows; the picture is loaded, the "
-        "one with names if there is one.\n"
+        "Renders a scene and loads the picture, the one with names if there is one. A draft has a "
+        "third of the pixels per side and takes seconds.\n"
         "<i>Index of pixels</i> is a layer of points: the ground that every n-th pixel shows, with "
-        "column and row in the picture (from its upper left pixel, which is 0, 0), distance, "
-        "altitude and class. On the map it leads from a place to its pixel and back.\n"
-        "A draft has a third of the pixels per side and takes seconds. If the run is cancelled, "
-        "the program is ended.")
+        "column and row in the picture, from 0, 0 at the upper left, distance, altitude and class.")
 
     def declare(self):
         for name, text in (("PANORAMA", "Picture"), ("GUIDANCE", "Guidance buffers")):

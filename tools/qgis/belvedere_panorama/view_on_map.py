@@ -63,7 +63,7 @@ def polygons_of(seen: np.ndarray, left: float, top: float, cell_m: float):
     band = raster.GetRasterBand(1)
     band.WriteArray(seen)
     gdal.SieveFilter(band, None, band, 4, 4)
-    source = ogr.GetDriverByName("Memory").CreateDataSource("")
+    source = (ogr.GetDriverByName("Memory") or ogr.GetDriverByName("MEM")).CreateDataSource("")
     layer = source.CreateLayer("seen", None, ogr.wkbPolygon)
     gdal.Polygonize(band, band, layer, -1, [])
     for feature in layer:
@@ -100,10 +100,8 @@ class ViewOnMap(Algorithm):
     NAME, TITLE = "viewonmap", "View on map"
     HELP = (
         "Shows in plan what a panorama shows: the cone of view, from the viewer's position to the "
-        "farthest ground, and the ground that is visible in the picture. Ground behind mountains, "
-        "behind the horizon of the bent terrain and outside the picture is left out.\n"
-        "Positions are those on the map, before ground is bent, raised or moved. A wider picture "
-        "gives finer outlines. Cells are the resolution of the outlines.")
+        "farthest ground, and the ground that is visible in the picture. A wider picture gives "
+        "finer outlines.")
     ADVANCED = {*Algorithm.ADVANCED, "CELL"}
 
     def declare(self):
