@@ -81,16 +81,13 @@ def read(path: str, wanted: Iterable[str]) -> Dict[str, np.ndarray]:
 
 def _read_tile(part: _Part, data: bytes, start: int, out: Dict[str, np.ndarray]) -> None:
     tile_x, tile_y, _, _, length = struct.unpack_from("<5i", data, start)
-    if not any(name in out for name, _ in part.channels):
+    wanted = [name for name, _ in part.channels if name in out]
+    if not wanted:
         return
     x, y = tile_x * part.tile[0], tile_y * part.tile[1]
     width, height = min(part.tile[0], part.width - x), min(part.tile[1], part.height - y)
-    row_bytes = width * sum(kind.itemsize for _, kind in part.channels)
-    rows = _unpacked(data[start + 20 : start + 20 + length], row_bytes * height)
-    rows, first = rows.reshape(height, row_bytes), 0
-    for name, kind in part.channels:
-        last = first + width * kind.itemsize
-        if name in out:
-            values = np.ascontiguousarray(rows[:, first:last]).view(kind)
-            out[name][y : y + height, x : x + width] = values
-        first = last
+    row = np.dtype([(name, kind, (width,)) for name, kind in part.channels])
+    start += 20
+    rows = _unpacked(data[start : start + length], row.itemsize * height).view(row)
+    for name in wanted:
+        out[name][y : y + height, x : x + width] = rows[name]
