@@ -1,7 +1,6 @@
 #include "renderer/compose/region_climate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "base/progress.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <optional>
 #include <vector>
 
 #include "renderer/compose/coarse_ground.h"

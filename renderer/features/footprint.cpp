@@ -1,7 +1,6 @@
 #include "renderer/features/footprint.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>

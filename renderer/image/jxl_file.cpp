@@ -6,13 +6,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <new>
-#include <string_view>
 #include <vector>
 
 #include "base/error.h"

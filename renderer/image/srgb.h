@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 

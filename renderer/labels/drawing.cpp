@@ -1,7 +1,6 @@
 #include "renderer/labels/drawing.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace belvedere {

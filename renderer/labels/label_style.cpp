@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <utility>
-
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
-#include <span>
 
 #include "base/math.h"
 #include "base/math_exact.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
-#include <string>
 
 #include "base/error.h"
 #include "base/guidance_buffers.h"

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "base/parallel.h"
 #include "base/pyramid.h"

@@ -11,7 +11,6 @@ class JSON;
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <new>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>

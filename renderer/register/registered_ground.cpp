@@ -9,7 +9,6 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <string>
 
 #include "base/filter.h"
 #include "base/math.h"

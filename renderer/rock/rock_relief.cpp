@@ -1,13 +1,10 @@
 #include "renderer/rock/rock_relief.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "base/guidance_buffers.h"
 #include "base/math.h"

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <memory>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>

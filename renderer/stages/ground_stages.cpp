@@ -1,7 +1,6 @@
 #include "renderer/stages/stages.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 

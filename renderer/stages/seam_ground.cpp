@@ -1,7 +1,6 @@
 #include "renderer/stages/seam_ground.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "base/error.h"

@@ -1,7 +1,6 @@
 #include "renderer/style/paint_style.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 
 #include "base/grid.h"

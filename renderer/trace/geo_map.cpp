@@ -1,7 +1,5 @@
 #include "renderer/trace/geo_map.h"
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <span>
 

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <span>
-#include <utility>
 
 #include "base/error.h"
 #include "base/guidance_buffers.h"

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <limits>
-#include <utility>
 
 #include "base/math.h"
 #include "base/random.h"

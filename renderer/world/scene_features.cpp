@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <iterator>
-#include <span>
 #include <utility>
 #include <vector>
 

@@ -8,8 +8,6 @@
 #include <limits>
 #include <set>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/math.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <utility>
 
 #include "base/cache/cache.h"
 #include "base/memory_limit.h"

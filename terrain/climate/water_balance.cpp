@@ -1,7 +1,6 @@
 #include "terrain/climate/water_balance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "base/math.h"

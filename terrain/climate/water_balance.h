@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "terrain/climate/zonal_climate.h"
 
 namespace belvedere {

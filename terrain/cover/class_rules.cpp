@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
-#include <optional>
 #include <utility>
 
 #include "base/error.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/vec2.hpp>
-#include <numeric>
 
 #include "base/filter.h"
 #include "base/math.h"

@@ -1,7 +1,6 @@
 #include "terrain/cover/rule_ground.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/filter.h"
 #include "base/grid.h"

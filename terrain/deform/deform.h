@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
-#include <string_view>
 
 #include "base/config.h"
 #include "base/error.h"

@@ -1,7 +1,6 @@
 #include "terrain/generalize/generalize_band.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/math_exact.h"

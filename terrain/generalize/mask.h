@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <string>
 
 #include "base/grid.h"
 #include "base/land_cover_class.h"

@@ -4,7 +4,6 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 

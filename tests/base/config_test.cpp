@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <clocale>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <locale>

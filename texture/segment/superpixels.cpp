@@ -1,7 +1,6 @@
 #include "texture/segment/superpixels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

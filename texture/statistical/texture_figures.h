@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "texture/statistical/learn_texture.h"
 
 namespace belvedere {

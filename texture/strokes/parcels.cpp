@@ -1,6 +1,7 @@
 #include "texture/strokes/parcels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 

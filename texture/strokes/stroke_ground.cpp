@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_parts.h"

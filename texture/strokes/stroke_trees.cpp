@@ -1,7 +1,6 @@
 #include "texture/strokes/stroke_trees.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "texture/strokes/stroke_parts.h"
 

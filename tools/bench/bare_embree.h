@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "renderer/trace/camera.h"
 #include "terrain/deform/deform.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/vec2.hpp>
 #include <map>
-#include <optional>
 
 #include "base/error.h"
 #include "renderer/exemplar/harmonize.h"

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -10,7 +9,6 @@
 #include <fstream>
 #include <span>
 #include <stdexcept>
-#include <utility>
 
 #include "base/cache/bytes.h"
 #include "base/cache/cache.h"

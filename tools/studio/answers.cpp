@@ -6,7 +6,6 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 #include "base/config.h"
 #include "base/text/embedded.h"

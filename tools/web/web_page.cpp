@@ -9,10 +9,8 @@
 #include <fstream>
 #include <glm/vec2.hpp>
 #include <limits>
-#include <map>
 #include <memory>
 #include <sstream>
-#include <string_view>
 #include <vector>
 
 #include "base/error.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "base/guidance_buffers.h"

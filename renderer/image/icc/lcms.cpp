@@ -6,7 +6,6 @@
 #include <fstream>
 #include <new>
 #include <system_error>
-#include <utility>
 
 #include "base/error.h"
 #include "base/text/missing_file.h"

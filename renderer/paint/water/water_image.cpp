@@ -1,7 +1,6 @@
 #include "renderer/paint/water/water_image.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

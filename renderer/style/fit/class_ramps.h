@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <glm/vec2.hpp>
 #include <string>
 #include <vector>

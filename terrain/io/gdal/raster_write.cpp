@@ -9,9 +9,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <new>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"

@@ -11,7 +11,6 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <set>
 #include <span>
 
 #include "base/error.h"

@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <sstream>
 #include <string>

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <queue>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "base/grid.h"

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "base/error.h"
 #include "base/parallel.h"
 #include "tests/texture/sheet/sheet_samples.h"

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "base/filter.h"
