@@ -4,12 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
 
-#include "base/grid.h"
 #include "base/lines/blur_lines.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"

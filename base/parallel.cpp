@@ -5,8 +5,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <cstddef>
-
 #include "base/memory/sanitized.h"
 
 #ifdef BELVEDERE_THREAD_SANITIZER

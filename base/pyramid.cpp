@@ -1,10 +1,8 @@
 #include "base/pyramid.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"

@@ -1,8 +1,5 @@
 #include "base/statistics.h"
 
-#include <algorithm>
-#include <cstddef>
-
 namespace belvedere {
 
 double median(std::vector<double> values) {

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -14,9 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
-#include <utility>
 
-#include "base/cache/content_hash.h"
 #include "base/error.h"
 
 namespace belvedere {

@@ -1,9 +1,5 @@
 #include "base/masks/label_blur.h"
 
-#include <algorithm>
-#include <cstddef>
-#include <vector>
-
 #include "base/filter.h"
 
 namespace belvedere {

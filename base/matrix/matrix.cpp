@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
-#include <optional>
 #include <utility>
 
 #include "base/math_exact.h"

@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/text/embedded.h"
 #include "base/text/hex_colour.h"
-#include "base/text/text_encoding.h"
 
 namespace belvedere {
 

@@ -6,13 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <type_traits>
-
-#include "base/error.h"
 
 namespace belvedere {
 namespace {

@@ -6,11 +6,9 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "base/math.h"
 #include "base/random.h"
 #include "renderer/close/ice_streams.h"
 #include "renderer/paint/ground/snow_relief.h"
-#include "renderer/paint/light.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 

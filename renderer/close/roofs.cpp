@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/parallel.h"
 #include "base/random.h"
 
 namespace belvedere {

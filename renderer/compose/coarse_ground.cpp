@@ -12,8 +12,6 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "terrain/io/block_means.h"
-#include "terrain/io/dem.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/io/surface_raster.h"
 

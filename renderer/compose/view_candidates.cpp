@@ -9,7 +9,6 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "renderer/compose/view_measures.h"
 
 namespace belvedere {
 namespace {

@@ -7,7 +7,6 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/statistics.h"
-#include "renderer/compose/view_shape.h"
 
 namespace belvedere {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/guidance_buffers.h"
 #include "base/math_exact.h"
 #include "base/text/embedded.h"
 #include "base/text/json.h"

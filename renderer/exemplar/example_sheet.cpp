@@ -5,14 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
-#include <string>
 #include <type_traits>
-#include <utility>
 #include <variant>
-#include <vector>
 
-#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
@@ -21,9 +16,6 @@
 #include "renderer/exemplar/uncertain_places.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/image/srgb.h"
-#include "renderer/paint/composite.h"
-#include "renderer/paint/guides.h"
-#include "renderer/stages/lit_picture.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
 #include "renderer/world/scene_season.h"

@@ -1,7 +1,6 @@
 #include "renderer/exemplar/fitted_ramps.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>

@@ -23,7 +23,6 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
 #include "renderer/image/srgb.h"
-#include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
 
 namespace belvedere {

@@ -8,8 +8,6 @@
 
 #include "renderer/world/ground_texture.h"
 #include "texture/composite/make_composite.h"
-#include "texture/statistical/clique_model.h"
-#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

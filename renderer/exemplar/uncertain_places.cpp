@@ -8,7 +8,6 @@
 #include "base/filter.h"
 #include "base/masks/label_blur.h"
 #include "base/parallel.h"
-#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

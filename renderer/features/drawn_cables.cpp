@@ -5,8 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "renderer/features/line_samples.h"
-
 namespace belvedere {
 namespace {
 

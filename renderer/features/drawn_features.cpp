@@ -11,7 +11,6 @@
 #include "base/parallel.h"
 #include "renderer/features/drawn_cables.h"
 #include "renderer/features/drawn_houses.h"
-#include "renderer/features/line_samples.h"
 
 namespace belvedere {
 namespace {

@@ -6,9 +6,6 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "renderer/features/footprint.h"
-#include "renderer/features/line_samples.h"
-
 namespace belvedere {
 namespace {
 

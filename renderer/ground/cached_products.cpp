@@ -3,7 +3,6 @@
 #include <array>
 #include <fstream>
 
-#include "base/cache/cache.h"
 #include "base/instruction_set.h"
 #include "renderer/image/provenance.h"
 

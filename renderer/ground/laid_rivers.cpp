@@ -7,9 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <iterator>
-#include <utility>
 
-#include "base/cache/cache.h"
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/math_exact.h"

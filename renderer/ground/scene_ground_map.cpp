@@ -6,13 +6,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <iterator>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "base/cache/cache.h"
 #include "base/cache/content_hash.h"
 #include "base/error.h"
 #include "base/files/kept_files.h"
@@ -22,9 +19,7 @@
 #include "base/parallel.h"
 #include "renderer/ground/braided_rivers.h"
 #include "renderer/ground/cached_products.h"
-#include "renderer/ground/laid_rivers.h"
 #include "renderer/ground/river_banks.h"
-#include "terrain/cover/towns.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/shape/coast.h"

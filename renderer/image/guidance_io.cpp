@@ -11,7 +11,6 @@
 #include <variant>
 
 #include "base/error.h"
-#include "base/guidance_buffers.h"
 #include "base/parallel.h"
 
 namespace belvedere {

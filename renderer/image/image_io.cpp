@@ -1,6 +1,5 @@
 #include "renderer/image/image_io.h"
 
-#include "renderer/image/image_file.h"
 #include "renderer/image/picture_formats.h"
 
 namespace belvedere {

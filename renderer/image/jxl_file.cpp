@@ -9,7 +9,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <new>
 #include <vector>
 
@@ -17,7 +16,6 @@
 #include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "renderer/image/exif.h"
-#include "renderer/image/image_file.h"
 #include "renderer/image/provenance.h"
 
 namespace belvedere {

@@ -14,7 +14,6 @@
 #include "base/land_cover_class.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/png_palette.h"
-#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -14,7 +13,6 @@
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "base/parallel.h"
-#include "renderer/image/image_file.h"
 #include "renderer/image/png_palette.h"
 #include "renderer/image/provenance.h"
 #include "renderer/image/srgb.h"

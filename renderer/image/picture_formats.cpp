@@ -9,7 +9,6 @@
 #include "base/text/missing_file.h"
 #include "renderer/image/exr/exr_reader.h"
 #include "renderer/image/exr/exr_writer.h"
-#include "renderer/image/image_file.h"
 #include "renderer/image/jxl_file.h"
 #include "renderer/image/oiio_file.h"
 #include "renderer/image/tiff_file.h"

@@ -3,11 +3,8 @@
 #include <png.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <fstream>
 #include <string_view>
-#include <vector>
 
 #include "base/error.h"
 #include "base/files/output_file.h"

@@ -3,8 +3,6 @@
 #include <array>
 #include <cstddef>
 
-#include "base/math_exact.h"
-
 namespace belvedere {
 namespace {
 

@@ -9,16 +9,13 @@
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
-#include <memory>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "base/parallel.h"
 #include "renderer/image/deflate.h"
-#include "renderer/image/image_file.h"
 #include "renderer/image/provenance.h"
 
 namespace belvedere {

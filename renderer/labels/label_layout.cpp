@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
-#include <optional>
 
 #include "renderer/labels/drawing.h"
 

@@ -10,7 +10,6 @@
 #include <glm/geometric.hpp>
 #include <set>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -18,7 +17,6 @@
 #include "base/parallel.h"
 #include "base/text/text_encoding.h"
 #include "terrain/io/crs.h"
-#include "terrain/io/features.h"
 #include "terrain/io/points.h"
 
 namespace belvedere {

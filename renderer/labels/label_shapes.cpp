@@ -16,7 +16,6 @@
 #include "base/parallel.h"
 #include "base/text/parse_number.h"
 #include "renderer/labels/drawing.h"
-#include "terrain/io/features.h"
 
 namespace belvedere {
 namespace {

@@ -1,10 +1,8 @@
 #include "renderer/live/live_view.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "base/files/output_file.h"
-#include "base/grid.h"
 #include "renderer/image/display_conversion.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/copy_plan.h"

@@ -8,13 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "base/grid.h"
 #include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/paint/air.h"
 #include "texture/strokes/brush.h"
 #include "texture/strokes/stroke_parts.h"
 

@@ -12,7 +12,6 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/trace/guidance_rays.h"
-#include "terrain/deform/deform.h"
 
 namespace belvedere {
 namespace {

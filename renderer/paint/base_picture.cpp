@@ -6,13 +6,11 @@
 
 #include "base/error.h"
 #include "base/grid.h"
-#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/paint/air.h"
 #include "renderer/paint/forest_cover.h"
-#include "renderer/paint/ground/base_surroundings.h"
 #include "renderer/paint/ground/ground_tint.h"
 #include "renderer/paint/ground/slope_walk.h"
 #include "renderer/paint/light.h"
@@ -20,9 +18,7 @@
 #include "renderer/paint/picture_noise.h"
 #include "renderer/paint/sky.h"
 #include "renderer/paint/terrain_end.h"
-#include "renderer/paint/water/water_image.h"
 #include "renderer/paint/water/water_surface.h"
-#include "texture/strokes/parcels.h"
 
 namespace belvedere {
 namespace {

@@ -5,7 +5,6 @@
 #include <glm/exponential.hpp>
 
 #include "base/error.h"
-#include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "renderer/image/srgb.h"
 

@@ -5,7 +5,6 @@
 #include <glm/vec3.hpp>
 #include <map>
 
-#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"

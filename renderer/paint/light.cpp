@@ -1,17 +1,14 @@
 #include "renderer/paint/light.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
-#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/image/srgb.h"
-#include "renderer/paint/air.h"
 #include "renderer/paint/ground/snow_relief.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"

@@ -1,11 +1,8 @@
 #include "renderer/paint/picture_filter.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
-#include "base/grid.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 

@@ -1,6 +1,5 @@
 #include "renderer/paint/picture_noise.h"
 
-#include <array>
 #include <cmath>
 
 #include "base/parallel.h"

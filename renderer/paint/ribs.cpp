@@ -1,9 +1,7 @@
 #include "renderer/paint/ribs.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <span>
 
 #include "base/math_exact.h"

@@ -11,7 +11,6 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/statistics.h"
-#include "renderer/paint/picture_noise.h"
 
 namespace belvedere {
 namespace {

@@ -10,18 +10,15 @@
 #include <string_view>
 
 #include "base/files/output_file.h"
-#include "base/grid.h"
 #include "base/text/hex_colour.h"
 #include "renderer/image/layers/layer_file.h"
 #include "renderer/image/rows/picture_files.h"
 #include "renderer/labels/drawing_svg.h"
 #include "renderer/labels/label_files.h"
 #include "renderer/labels/margin_blocks.h"
-#include "renderer/labels/sheet_painter.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/scene_labels.h"
 #include "renderer/stages/picture_layers.h"
-#include "renderer/world/world.h"
 
 namespace belvedere {
 namespace {

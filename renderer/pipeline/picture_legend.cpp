@@ -9,7 +9,6 @@
 #include <locale>
 #include <memory>
 #include <sstream>
-#include <string>
 #include <string_view>
 #include <utility>
 

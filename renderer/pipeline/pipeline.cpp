@@ -8,7 +8,6 @@
 #include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/files/file_guard.h"
@@ -16,7 +15,6 @@
 #include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_job.h"
-#include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_style.h"
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <utility>
 
 #include "base/error.h"
 #include "base/instruction_set.h"
@@ -24,7 +23,6 @@
 #include "renderer/world/ground_windows.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
-#include "renderer/world/scene_light.h"
 #include "renderer/world/scene_season.h"
 #include "renderer/world/viewer_check.h"
 #include "terrain/io/raster_io.h"

@@ -10,7 +10,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/files/kept_files.h"
 #include "base/files/output_file.h"

@@ -1,7 +1,6 @@
 #include "renderer/pipeline/scene_paint.h"
 
 #include "base/error.h"
-#include "renderer/exemplar/scan.h"
 #include "renderer/image/icc/press_colour.h"
 #include "renderer/world/scene_style.h"
 

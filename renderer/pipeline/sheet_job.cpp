@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -20,14 +19,11 @@
 #include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/scene_labels.h"
 #include "renderer/pipeline/scene_paint.h"
-#include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/pipeline/sheet_work.h"
 #include "renderer/sheet/piece_file.h"
-#include "renderer/sheet/work_folder.h"
 #include "renderer/stages/stages.h"
 #include "renderer/world/lazy_value.h"
 #include "renderer/world/scene_features.h"
-#include "renderer/world/world.h"
 
 namespace belvedere {
 namespace {

@@ -3,7 +3,6 @@
 #include <numeric>
 #include <utility>
 
-#include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/stages/lit_picture.h"
 #include "renderer/stages/sheet_style.h"
 #include "renderer/world/scene_season.h"

@@ -31,7 +31,6 @@ class JSON;
 #include "renderer/image/display_conversion.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/provenance.h"
-#include "renderer/press/page_plan.h"
 
 namespace belvedere {
 namespace {

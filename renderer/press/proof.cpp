@@ -9,7 +9,6 @@
 #include "base/files/file_guard.h"
 #include "base/parallel.h"
 #include "base/text/missing_file.h"
-#include "renderer/image/icc/press_colour.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/rows/picture_files.h"
 #include "renderer/image/srgb.h"

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdlib>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "base/filter.h"

@@ -16,7 +16,6 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "terrain/deform/bend_curve.h"
-#include "terrain/deform/deform.h"
 #include "terrain/register/mountain_deviation.h"
 
 namespace belvedere {

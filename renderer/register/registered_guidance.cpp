@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/vec2.hpp>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/math.h"
 #include "base/math_exact.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <variant>
 #include <vector>
 
@@ -12,7 +11,6 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/paint/picture_filter.h"
-#include "renderer/rock/rock_view.h"
 
 namespace belvedere {
 namespace {

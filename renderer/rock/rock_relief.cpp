@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"
@@ -14,7 +13,6 @@
 #include "renderer/paint/picture_noise.h"
 #include "renderer/rock/rock_ground.h"
 #include "renderer/rock/rock_light.h"
-#include "renderer/rock/rock_view.h"
 
 namespace belvedere {
 namespace {

@@ -1,11 +1,9 @@
 #include "renderer/rock/rock_view.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/paint/picture_noise.h"
 

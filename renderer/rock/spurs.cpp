@@ -8,7 +8,6 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/paint/picture_filter.h"
-#include "renderer/rock/spur_peaks.h"
 
 namespace belvedere {
 namespace {

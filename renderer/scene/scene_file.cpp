@@ -9,7 +9,6 @@
 #include <regex>
 
 #include "base/config.h"
-#include "base/error.h"
 #include "renderer/scene/scene_rules.h"
 #include "renderer/scene/scene_schema.h"
 #include "renderer/scene/scene_settings.h"

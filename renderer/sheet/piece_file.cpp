@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -17,12 +16,9 @@
 #include <system_error>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "base/error.h"
-#include "base/guidance_buffers.h"
 #include "base/parallel.h"
-#include "renderer/graph/tile_store.h"
 #include "renderer/image/exr/exr_reader.h"
 #include "renderer/image/provenance.h"
 

@@ -19,7 +19,6 @@
 #include "base/error.h"
 #include "base/text/text_encoding.h"
 #include "renderer/image/provenance.h"
-#include "renderer/sheet/piece_file.h"
 
 namespace belvedere {
 namespace {

@@ -1,15 +1,12 @@
 #include "renderer/stages/ground_inputs.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "base/error.h"
 #include "base/filter.h"
-#include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/paint/light.h"
 #include "renderer/stages/sheet_style.h"
 #include "renderer/world/scene_style.h"
 

@@ -8,7 +8,6 @@
 #include "base/grid.h"
 #include "texture/composite/make_composite.h"
 #include "texture/statistical/learn_texture.h"
-#include "texture/statistical/make_texture.h"
 #include "texture/synthesis/exemplar.h"
 
 namespace belvedere {

@@ -10,10 +10,8 @@
 #include "base/math_exact.h"
 #include "base/statistics.h"
 #include "renderer/image/srgb.h"
-#include "renderer/style/fit/class_ramps.h"
 #include "renderer/style/fit/missing_classes.h"
 #include "renderer/style/fit/paint_figures.h"
-#include "renderer/style/fit/style_painting.h"
 #include "texture/synthesis/exemplar.h"
 
 namespace belvedere {

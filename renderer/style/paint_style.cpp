@@ -10,7 +10,6 @@
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/style/stroke_direction.h"
-#include "renderer/style/style_strokes.h"
 
 namespace belvedere {
 namespace {

@@ -1,7 +1,6 @@
 #include "renderer/style/style_strokes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 

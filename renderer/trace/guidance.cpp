@@ -10,11 +10,9 @@
 #include <span>
 
 #include "base/error.h"
-#include "base/guidance_buffers.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/trace/guidance_ground.h"
-#include "renderer/trace/guidance_rays.h"
 
 namespace belvedere {
 namespace {

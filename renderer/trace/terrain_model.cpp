@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/filter.h"

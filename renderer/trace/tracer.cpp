@@ -19,7 +19,6 @@
 #include "base/error.h"
 #include "base/instruction_set.h"
 #include "base/parallel.h"
-#include "renderer/trace/traced_part.h"
 
 namespace belvedere {
 namespace {

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "base/cache/cache.h"
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
@@ -15,12 +14,10 @@
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
 #include "terrain/cover/map_cover.h"
-#include "terrain/deform/deform.h"
 #include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/generalize/mask.h"
 #include "terrain/io/dem_levels.h"
 #include "terrain/shape/hydrology.h"
-#include "terrain/shape/sea.h"
 
 namespace belvedere {
 

@@ -10,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "base/filter.h"
 #include "base/grid.h"
@@ -21,8 +20,6 @@
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
-#include "terrain/deform/deform.h"
-#include "terrain/io/dem_levels.h"
 
 namespace belvedere {
 namespace {

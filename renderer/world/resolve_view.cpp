@@ -6,20 +6,14 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "renderer/compose/massifs.h"
-#include "renderer/compose/view_candidates.h"
 #include "renderer/compose/view_measures.h"
 #include "renderer/compose/view_score.h"
-#include "renderer/compose/view_shape.h"
-#include "renderer/trace/camera.h"
-#include "terrain/deform/deform.h"
 
 namespace belvedere {
 namespace {

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/math_exact.h"

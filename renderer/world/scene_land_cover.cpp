@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <optional>
 #include <utility>
 
-#include "base/cache/cache.h"
 #include "base/files/kept_files.h"
 #include "base/pixel_rect.h"
 #include "base/statistics.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/laid_rivers.h"
-#include "renderer/ground/scene_ground_map.h"
 #include "renderer/paint/palette.h"
 #include "renderer/world/ground_texture.h"
 #include "renderer/world/scene_dem.h"
@@ -23,8 +20,6 @@
 #include "renderer/world/scene_towns.h"
 #include "terrain/climate/map_climate.h"
 #include "terrain/climate/radiation.h"
-#include "terrain/cover/land_cover.h"
-#include "terrain/cover/land_cover_patches.h"
 #include "terrain/layers/layer_apply.h"
 #include "terrain/layers/layer_climate.h"
 #include "terrain/layers/layer_coverage.h"

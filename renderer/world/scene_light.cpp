@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -16,8 +15,6 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "renderer/trace/light_field.h"
-#include "renderer/world/view.h"
 #include "terrain/io/features.h"
 #include "terrain/io/raster_io.h"
 

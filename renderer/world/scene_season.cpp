@@ -13,7 +13,6 @@
 #include "base/math.h"
 #include "terrain/climate/default_climate.h"
 #include "terrain/climate/water_balance.h"
-#include "terrain/climate/zonal_climate.h"
 #include "terrain/cover/class_rules.h"
 
 namespace belvedere {

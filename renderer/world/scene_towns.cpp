@@ -6,7 +6,6 @@
 
 #include "renderer/world/view.h"
 #include "renderer/world/viewer_check.h"
-#include "terrain/cover/towns.h"
 
 namespace belvedere {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/cache/cache.h"
 #include "base/memory_limit.h"
 #include "terrain/io/raster_file.h"
 

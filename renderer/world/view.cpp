@@ -10,7 +10,6 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "renderer/scene/scene_table.h"
-#include "renderer/world/resolve_view.h"
 #include "renderer/world/viewer_check.h"
 #include "terrain/io/raster_io.h"
 

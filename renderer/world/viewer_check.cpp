@@ -8,16 +8,13 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <limits>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/ground/scene_ground_map.h"
-#include "terrain/deform/deform.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {

@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/instruction_set.h"
@@ -23,17 +22,13 @@
 #include "renderer/paint/sky.h"
 #include "renderer/scene/scene_lock.h"
 #include "renderer/scene/scene_table.h"
-#include "renderer/trace/camera.h"
-#include "renderer/trace/terrain_model.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/ground_windows.h"
-#include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
 #include "renderer/world/scene_light.h"
 #include "renderer/world/scene_season.h"
 #include "renderer/world/scene_style.h"
 #include "renderer/world/scene_values.h"
-#include "renderer/world/view.h"
 #include "renderer/world/viewer_check.h"
 #include "terrain/climate/map_position.h"
 #include "terrain/cover/map_cover.h"

@@ -14,7 +14,6 @@
 #include "terrain/climate/station_regions.h"
 #include "terrain/climate/stations.h"
 #include "terrain/io/block_means.h"
-#include "terrain/io/raster_io.h"
 
 namespace belvedere {
 namespace {

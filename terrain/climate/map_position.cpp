@@ -1,6 +1,5 @@
 #include "terrain/climate/map_position.h"
 
-#include <array>
 #include <cmath>
 #include <vector>
 

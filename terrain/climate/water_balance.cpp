@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "base/math.h"
-#include "terrain/climate/zonal_climate.h"
 
 namespace belvedere {
 namespace {

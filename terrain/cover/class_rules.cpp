@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
-#include <utility>
 
 #include "base/error.h"
 #include "base/filter.h"
@@ -17,7 +16,6 @@
 #include "base/rising_queue.h"
 #include "terrain/cover/class_rules_inputs.h"
 #include "terrain/cover/rule_expression.h"
-#include "terrain/cover/rule_program.h"
 #include "terrain/shape/inferred_rivers.h"
 
 namespace belvedere {

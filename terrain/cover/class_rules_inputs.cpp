@@ -15,7 +15,6 @@
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/layer_inputs.h"
 #include "terrain/shape/derivatives.h"
-#include "terrain/shape/hydrology.h"
 #include "terrain/shape/mask_pieces.h"
 
 namespace belvedere::class_rules {

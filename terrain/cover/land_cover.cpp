@@ -6,13 +6,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
-#include "terrain/cover/map_cover.h"
 #include "terrain/io/crs.h"
 #include "terrain/shape/mask_pieces.h"
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <utility>
 
 #include "base/filter.h"
 #include "base/masks/erosion.h"

@@ -17,7 +17,6 @@
 #include "base/parallel.h"
 #include "base/pyramid.h"
 #include "base/statistics.h"
-#include "terrain/cover/ground_variables.h"
 #include "terrain/io/block_means.h"
 #include "terrain/shape/derivatives.h"
 #include "terrain/shape/hydrology.h"

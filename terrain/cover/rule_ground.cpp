@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/filter.h"
-#include "base/grid.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"

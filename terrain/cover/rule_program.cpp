@@ -4,12 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <regex>
-#include <utility>
 
 #include "base/error.h"
-#include "base/random.h"
 #include "base/text/config_reader.h"
 #include "terrain/cover/class_rules_inputs.h"
 #include "terrain/cover/ground_variables.h"

@@ -9,7 +9,6 @@
 #include <span>
 #include <thread>
 
-#include "base/cache/cache.h"
 #include "base/error.h"
 
 namespace belvedere {

@@ -8,15 +8,12 @@
 #include <iterator>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/filter.h"
-#include "base/grid.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/pyramid.h"
-#include "terrain/generalize/generalize_band.h"
 #include "terrain/generalize/mask.h"
 
 namespace belvedere {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parallel.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_file.h"
 

@@ -11,7 +11,6 @@
 #include "base/statistics.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/http_access.h"
-#include "terrain/io/raster_file.h"
 
 namespace belvedere {
 namespace {

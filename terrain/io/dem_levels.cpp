@@ -12,7 +12,6 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/pyramid.h"
-#include "terrain/io/dem.h"
 
 namespace belvedere {
 namespace {

@@ -13,7 +13,6 @@
 #include "base/text/text_encoding.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/csv.h"
-#include "terrain/io/features.h"
 #include "terrain/io/raster_file.h"
 
 namespace belvedere {

@@ -1,7 +1,6 @@
 #include "terrain/io/resample.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 

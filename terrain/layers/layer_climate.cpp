@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/filter.h"
-#include "base/grid.h"
 #include "base/parallel.h"
 #include "terrain/climate/map_climate.h"
 #include "terrain/cover/ground_lakes.h"

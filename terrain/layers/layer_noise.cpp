@@ -1,11 +1,9 @@
 #include "terrain/layers/layer_noise.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "base/filter.h"
 #include "base/pyramid.h"

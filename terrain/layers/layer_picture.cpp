@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
@@ -18,8 +17,6 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "terrain/layers/layer_coverage.h"
-#include "terrain/layers/layer_noise.h"
 
 namespace belvedere {
 namespace {

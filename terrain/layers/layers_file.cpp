@@ -15,7 +15,6 @@
 #include "base/text/text_encoding.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/layer_inputs.h"
-#include "terrain/layers/surface_layers.h"
 
 namespace belvedere {
 namespace {

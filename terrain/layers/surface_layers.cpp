@@ -3,16 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <set>
-#include <utility>
 
 #include "base/error.h"
 #include "base/math_exact.h"
-#include "terrain/cover/ground_variables.h"
-#include "terrain/cover/rule_program.h"
 
 namespace belvedere {
 namespace {

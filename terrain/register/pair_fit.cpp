@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <span>
 #include <utility>
 
 #include "base/error.h"
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/matrix/matrix.h"
 
 namespace belvedere {
 

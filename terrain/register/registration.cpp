@@ -8,7 +8,6 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -18,7 +17,6 @@
 #include "base/parallel.h"
 #include "terrain/deform/deform.h"
 #include "terrain/register/find_mountains.h"
-#include "terrain/register/pair_fit.h"
 
 namespace belvedere {
 namespace {

@@ -1,10 +1,8 @@
 #include "terrain/register/view_model.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
-#include "base/math_exact.h"
 #include "base/statistics.h"
 
 namespace belvedere {

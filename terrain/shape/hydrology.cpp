@@ -7,8 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
-#include <utility>
-#include <vector>
 
 #include "base/math_exact.h"
 #include "base/parallel.h"

@@ -8,7 +8,6 @@
 #include <limits>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 #include "base/lines/power_line.h"
 #include "base/parallel.h"

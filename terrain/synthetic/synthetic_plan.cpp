@@ -6,7 +6,6 @@
 
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "base/random.h"
 
 namespace belvedere::synthetic {
 namespace {

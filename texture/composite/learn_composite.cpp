@@ -7,12 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "base/cache/content_hash.h"
 #include "base/error.h"
 #include "base/filter.h"
-#include "base/grid.h"
 #include "texture/statistical/choose_seed.h"
 #include "texture/statistical/difference_histogram.h"
 

@@ -7,17 +7,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <vector>
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/grid.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "base/text/text_encoding.h"
-#include "texture/statistical/clique_model.h"
 
 namespace belvedere {
 namespace {

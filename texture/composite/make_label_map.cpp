@@ -11,7 +11,6 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "texture/statistical/make_texture.h"
 
 namespace belvedere {
 namespace {

@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <vector>
 
 #include "base/math_exact.h"
 #include "base/parallel.h"

@@ -8,7 +8,6 @@
 #include <map>
 #include <queue>
 #include <utility>
-#include <vector>
 
 #include "base/filter.h"
 #include "base/parallel.h"

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "base/config.h"
 #include "base/error.h"

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdlib>
-#include <vector>
 
 #include "base/cache/content_hash.h"
 #include "base/error.h"

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/glm.hpp>
 #include <numeric>
 #include <optional>
 #include <utility>
 
-#include "base/grid.h"
-#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/pixel_rect.h"

@@ -6,15 +6,11 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
-#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/random.h"
-#include "texture/strokes/brush.h"
 #include "texture/strokes/ice/ice_plan.h"
-#include "texture/strokes/stroke_table.h"
 
 namespace belvedere {
 namespace {

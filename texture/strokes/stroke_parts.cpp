@@ -1,10 +1,8 @@
 #include "texture/strokes/stroke_parts.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/math_exact.h"
-#include "base/random.h"
 
 namespace belvedere {
 namespace {

@@ -1,6 +1,5 @@
 #include "texture/strokes/stroke_seeds.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 

@@ -3,10 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "base/error.h"
 #include "base/text/text_encoding.h"
 
 namespace belvedere {

@@ -1,8 +1,5 @@
 #include "texture/synthesis/synth_kernel.h"
 
-#include <algorithm>
-#include <array>
-#include <cstdlib>
 #include <type_traits>
 
 #include "base/error.h"

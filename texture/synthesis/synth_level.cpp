@@ -5,16 +5,13 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <functional>
 #include <mutex>
-#include <vector>
 
 #include "base/parallel.h"
 #include "base/random.h"
 #include "texture/synthesis/synth_lists.h"
-#include "texture/synthesis/synth_state.h"
 
 // Shared by the parts of a level; internal.
 

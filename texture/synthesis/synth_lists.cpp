@@ -1,7 +1,6 @@
 #include "texture/synthesis/synth_lists.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>

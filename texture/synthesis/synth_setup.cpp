@@ -3,14 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <set>
 
 #include "base/error.h"
 #include "base/random.h"
-#include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/synth_kernel.h"
 #include "texture/synthesis/synth_level.h"
 

@@ -6,8 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "texture/synthesis/synth_lists.h"
-
 namespace belvedere::synth {
 namespace {
 

@@ -1,6 +1,5 @@
 #include "texture/synthesis/synth_surroundings.h"
 
-#include <algorithm>
 #include <atomic>
 #include <string>
 #include <unordered_map>

@@ -16,7 +16,6 @@
 #include "renderer/image/image_io.h"
 #include "terrain/climate/radiation.h"
 #include "terrain/climate/rain.h"
-#include "terrain/deform/deform.h"
 #include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/layer_apply.h"
 #include "terrain/layers/layer_coverage.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -18,13 +17,10 @@
 #include "terrain/generalize/destripe.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/line_integral_generalize.h"
-#include "terrain/generalize/mask.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/hydrology.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
-#include "tools/cli/terrain_operators.h"
-#include "tools/options/options.h"
 #include "tools/report/generalize_report_page.h"
 
 namespace belvedere::tools {

@@ -6,7 +6,6 @@
 #include <exception>
 #include <map>
 #include <new>
-#include <string>
 #include <utility>
 
 #include "base/config.h"

@@ -12,7 +12,6 @@
 #include "renderer/scene/scene_lock.h"
 #include "terrain/io/http_access.h"
 #include "tools/cli/terminal.h"
-#include "tools/options/options.h"
 
 namespace belvedere::tools {
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <string>
 
 #include "base/error.h"
 #include "tools/cli/commands.h"

@@ -3,9 +3,7 @@
 #include <fmt/core.h>
 
 #include "terrain/generalize/widen_valleys.h"
-#include "terrain/io/raster_io.h"
 #include "terrain/shape/derivatives.h"
-#include "tools/options/options.h"
 
 namespace belvedere::tools {
 

@@ -7,7 +7,6 @@
 #include <map>
 #include <sstream>
 
-#include "base/error.h"
 #include "base/files/file_guard.h"
 #include "base/text/missing_file.h"
 

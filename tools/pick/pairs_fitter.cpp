@@ -8,13 +8,11 @@
 #include <iterator>
 #include <utility>
 
-#include "base/error.h"
 #include "base/files/output_file.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/statistics.h"
 #include "base/text/missing_file.h"
-#include "renderer/register/registered_ground.h"
 #include "tools/report/register_page.h"
 
 namespace belvedere::tools {

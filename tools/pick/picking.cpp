@@ -11,10 +11,8 @@
 #include <mutex>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
-#include "base/grid.h"
 #include "base/statistics.h"
 #include "base/text/parse_number.h"
 #include "terrain/io/crs.h"
@@ -23,7 +21,6 @@
 #include "tools/pick/pairs_fitter.h"
 #include "tools/report/report_pictures.h"
 #include "tools/studio/answers.h"
-#include "tools/studio/http_server.h"
 
 namespace belvedere::tools {
 namespace {

@@ -13,7 +13,6 @@
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
 #include "terrain/generalize/mask.h"
-#include "tools/report/report.h"
 #include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {

@@ -10,7 +10,6 @@
 
 #include "terrain/layers/fit/colour_regions.h"
 #include "terrain/layers/fit/fit_measures.h"
-#include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/layer_coverage.h"
 #include "terrain/layers/layers_file.h"
 #include "tools/report/report.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <utility>
 
 #include "base/files/file_guard.h"
 #include "base/files/output_file.h"

@@ -1,10 +1,8 @@
 #include "tools/report/report_pictures.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <vector>
 
 #include "base/files/output_file.h"
 #include "base/land_cover_class.h"

@@ -9,7 +9,6 @@
 #include "base/text/text_encoding.h"
 #include "tools/report/report.h"
 #include "tools/report/report_pictures.h"
-#include "tools/report/synthesis_findings.h"
 
 namespace belvedere::tools {
 namespace {

@@ -5,19 +5,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <string_view>
 #include <thread>
 #include <utility>
-#include <vector>
 
-#include "base/error.h"
 #include "base/text/embedded.h"
-#include "base/text/json.h"
 #include "tools/studio/answers.h"
 
 namespace belvedere::tools {

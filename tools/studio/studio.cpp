@@ -5,9 +5,7 @@
 #include "base/error.h"
 #include "renderer/pipeline/scene_check.h"
 #include "tools/report/report_pictures.h"
-#include "tools/studio/http_server.h"
 #include "tools/studio/job.h"
-#include "tools/studio/studio_state.h"
 
 namespace belvedere::tools {
 

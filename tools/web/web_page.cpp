@@ -11,12 +11,10 @@
 #include <limits>
 #include <memory>
 #include <sstream>
-#include <vector>
 
 #include "base/error.h"
 #include "base/files/file_guard.h"
 #include "base/files/output_file.h"
-#include "base/grid.h"
 #include "base/land_cover_class.h"
 #include "base/parallel.h"
 #include "base/text/embedded.h"

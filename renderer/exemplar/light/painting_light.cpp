@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/guidance_buffers.h"
 #include "base/masks/label_blur.h"
 #include "base/math.h"
 #include "base/math_exact.h"

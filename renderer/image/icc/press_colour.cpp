@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
-#include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"

@@ -9,8 +9,6 @@
 #include <fstream>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <string>
-#include <vector>
 
 #include "base/error.h"
 #include "base/files/output_file.h"
@@ -20,7 +18,6 @@
 #include "renderer/image/exr/exr_reader.h"
 #include "renderer/image/exr/exr_writer.h"
 #include "renderer/image/layers/layer_png.h"
-#include "renderer/image/layers/layered_sheet.h"
 #include "renderer/image/layers/psd_file.h"
 #include "renderer/image/srgb.h"
 

@@ -3,11 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "renderer/image/icc/press_colour.h"
 #include "renderer/image/picture_formats.h"
 #include "renderer/image/rows/picture_rows.h"
 #include "renderer/image/tiff_file.h"

@@ -6,10 +6,8 @@
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/paint/air.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
-#include "renderer/paint/terrain_end.h"
 
 namespace belvedere {
 namespace {

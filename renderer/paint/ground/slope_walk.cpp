@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"

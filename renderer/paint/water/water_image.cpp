@@ -6,11 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
-#include "base/guidance_buffers.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "renderer/paint/air.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/sky.h"
 

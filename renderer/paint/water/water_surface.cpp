@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/vec2.hpp>
 #include <utility>
 
 #include "base/colour/water_colour.h"

@@ -12,7 +12,6 @@
 #include "renderer/scene/edit/edited_text.h"
 #include "renderer/scene/edit/toml_layout.h"
 #include "renderer/scene/scene_file.h"
-#include "renderer/scene/scene_schema.h"
 #include "renderer/scene/scene_settings.h"
 
 namespace belvedere {

@@ -3,14 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
-#include <vector>
 
 #include "base/error.h"
-#include "base/land_cover_class.h"
 #include "base/masks/label_blur.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"

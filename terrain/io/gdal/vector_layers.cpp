@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <gdal.h>
-#include <ogr_api.h>
 #include <ogr_srs_api.h>
 
 #include <algorithm>

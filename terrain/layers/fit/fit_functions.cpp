@@ -5,18 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <numeric>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "terrain/layers/fit/fit_cells.h"
 
 namespace belvedere {
 namespace {

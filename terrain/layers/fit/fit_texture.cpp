@@ -1,7 +1,6 @@
 #include "terrain/layers/fit/fit_texture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -7,11 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
-#include <glm/vec3.hpp>
 #include <utility>
 
 #include "base/error.h"
-#include "base/grid.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"

@@ -8,14 +8,12 @@
 #include <cstddef>
 #include <glm/vec2.hpp>
 #include <string>
-#include <vector>
 
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "terrain/layers/fit/fit_measures.h"
 
 namespace belvedere {
 namespace {

@@ -1,13 +1,11 @@
 #include "texture/strokes/ice/ice_plan.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <iterator>
 #include <utility>
 
 #include "base/error.h"
-#include "texture/strokes/ice/ice_ground.h"
 #include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {

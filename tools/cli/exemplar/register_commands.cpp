@@ -12,7 +12,6 @@
 #include <sstream>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/files/file_guard.h"
@@ -32,7 +31,6 @@
 #include "renderer/world/scene_dem.h"
 #include "terrain/io/crs.h"
 #include "terrain/register/control_pairs.h"
-#include "terrain/register/registration.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/studio/painting_work.h"
 #include "tools/cli/studio/serve_page.h"

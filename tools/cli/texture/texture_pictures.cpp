@@ -19,7 +19,6 @@
 #include "renderer/image/picture_formats.h"
 #include "renderer/image/rows/picture_rows.h"
 #include "texture/statistical/band_pyramid.h"
-#include "texture/statistical/clique_model.h"
 #include "texture/statistical/make_texture.h"
 #include "tools/cli/commands.h"
 #include "tools/options/options.h"
