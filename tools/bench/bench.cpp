@@ -17,18 +17,10 @@
 
 namespace belvedere::bench {
 
-std::vector<Measurement> bench_climate(const Options&);
-std::vector<Measurement> bench_deform(const Options&);
-std::vector<Measurement> bench_files(const Options&);
-std::vector<Measurement> bench_generalize(const Options&);
-std::vector<Measurement> bench_guidance(const Options&);
-std::vector<Measurement> bench_layers(const Options&);
 std::vector<Measurement> bench_picture(const Options&);
 std::vector<Measurement> bench_preview(const Options&);
-std::vector<Measurement> bench_rock(const Options&);
 std::vector<Measurement> bench_studio(const Options&);
 std::vector<Measurement> bench_synthesis(const Options&);
-std::vector<Measurement> bench_texture(const Options&);
 std::vector<Measurement> bench_trace(const Options&);
 
 namespace {
@@ -39,20 +31,11 @@ const std::vector<Section>& sections() {
        "building the structure and tracing rays, compared with a bare Embree loop over the same "
        "rays",
        &bench_trace},
-      {"guidance", "a whole picture's guidance buffers", &bench_guidance},
-      {"generalize", "generalization of the terrain", &bench_generalize},
-      {"deform", "bending the terrain, and moving pieces of it", &bench_deform},
-      {"climate", "the sun of a year over the terrain, and rain driven up it by wind",
-       &bench_climate},
-      {"layers", "surface layers: inputs, coverage, classes", &bench_layers},
-      {"rock", "relief of rock, its crests, and the blur that stays on a surface", &bench_rock},
       {"synthesis", "painting by example, with one guide and with seven", &bench_synthesis},
-      {"texture", "texture models: learning, the flow and the polish", &bench_texture},
       {"studio", "from a change of --scene to its live picture", &bench_studio},
       {"picture", "the picture of --scene by stage, and what a second thread brings to each",
        &bench_picture},
       {"preview", "how far the ground of previews of --scene is from the print's", &bench_preview},
-      {"files", "writing and reading TIFF, PNG and OpenEXR", &bench_files},
   };
   return all;
 }
@@ -61,9 +44,9 @@ double seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
-rusage used(int who = RUSAGE_SELF) {
+rusage used() {
   rusage usage{};
-  getrusage(who, &usage);
+  getrusage(RUSAGE_SELF, &usage);
   return usage;
 }
 
@@ -89,16 +72,6 @@ Cost measure(const std::function<void()>& work) {
   work();
   const Cost after = spent();
   return {after.wall_s - before.wall_s, after.cpu_s - before.cpu_s};
-}
-
-Cost measure_child(const std::function<int()>& work) {
-  const rusage before = used(RUSAGE_CHILDREN);
-  const auto start = std::chrono::steady_clock::now();
-  if (work() != 0) return {};
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  const rusage after = used(RUSAGE_CHILDREN);
-  return {wall.count(), seconds(after.ru_utime) + seconds(after.ru_stime) -
-                            seconds(before.ru_utime) - seconds(before.ru_stime)};
 }
 
 std::vector<Cost> measure_fastest(int repeats, const std::vector<std::function<void()>>& works) {

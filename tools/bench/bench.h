@@ -37,8 +37,6 @@ struct Cost {
 Cost measure(const std::function<void()>& work);
 // The cost of this process so far; its elapsed time has no fixed beginning.
 Cost spent();
-// The same for work done by a child process that is started and waited for.
-Cost measure_child(const std::function<int()>& work);
 // The minimum of several runs by processor time, because other load on the machine only adds time.
 // Works that are compared alternate, so that a slow minute of the machine slows them all.
 std::vector<Cost> measure_fastest(int repeats, const std::vector<std::function<void()>>& works);

@@ -12,22 +12,61 @@
 #include "base/error.h"
 #include "base/files/output_file.h"
 #include "base/parallel.h"
-#include "renderer/paint/picture_filter.h"
-#include "renderer/paint/ribs.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/rock/rock_ground.h"
-#include "renderer/rock/rock_relief.h"
-#include "renderer/trace/guidance.h"
+#include "renderer/trace/camera.h"
 #include "renderer/trace/tracer.h"
+#include "terrain/deform/deform.h"
+#include "terrain/io/dem.h"
+#include "terrain/synthetic/synthetic.h"
 #include "tools/bench/bare_embree.h"
 #include "tools/bench/bench.h"
-#include "tools/bench/bench_terrain.h"
 
 namespace belvedere::bench {
 
 std::vector<Measurement> bench_trace(const Options&);
 
 namespace {
+
+// Ridged noise of size × size cells of 30 m.
+Dem make_bench_dem(int size) {
+  SyntheticParameters parameters;
+  parameters.width = size;
+  parameters.height = size;
+  return make_ridged_noise(parameters);
+}
+
+// That terrain undeformed, exaggerated 1.6 times, vertices relative to its centre.
+DeformedSurface make_bench_surface(const Dem& dem) {
+  const glm::dvec2 centre = dem.transform.to_crs(0.5 * dem.width(), 0.5 * dem.height());
+  DeformParameters parameters;
+  parameters.exaggeration = 1.6;
+  return deform(dem.altitude_m, dem.transform, centre, {centre, 0.0}, parameters);
+}
+
+// A view of the whole terrain from beyond its northern rim; its size is a multiple of 4.
+CameraParameters bench_view(const Dem& dem, int width, int height) {
+  const double side_m = dem.width() * dem.cell_m();
+  const glm::dvec2 north = dem.transform.to_crs(0.5 * dem.width(), 0.0);
+  CameraParameters parameters;
+  parameters.width = width;
+  parameters.height = height;
+  parameters.eye = {north.x, north.y + 0.4 * side_m, 6000.0 + 0.25 * side_m};
+  parameters.azimuth_deg = 180.0;
+  parameters.pitch_deg = -22.0;
+  parameters.field_of_view_deg = 50.0;
+  return parameters;
+}
+
+// The rays of a view, each 16 a bundle of 4 × 4 pixels.
+std::vector<Ray> bundle_rays(const Camera& camera) {
+  std::vector<Ray> rays;
+  for (int y = 0; y < camera.size().y; y += 4) {
+    for (int x = 0; x < camera.size().x; x += 4) {
+      for (int k = 0; k < 16; ++k) rays.push_back(camera.ray({x + k % 4 + 0.5, y + k / 4 + 0.5}));
+    }
+  }
+  return rays;
+}
 
 constexpr std::size_t task_packets = 64;  // 1024 rays a task
 
@@ -145,48 +184,6 @@ std::vector<Measurement> bench_trace(const Options& options) {
   return out;
 }
 
-std::vector<Measurement> bench_guidance(const Options&);
-
-std::vector<Measurement> bench_guidance(const Options& options) {
-  std::vector<Measurement> out;
-  for (const int size : options.sizes) {
-    const std::string name = fmt::format("{}²", size);
-    Dem dem = make_bench_dem(size);
-    const DeformedSurface surface = make_bench_surface(dem);
-    const Tracer tracer(surface);
-    const auto camera = make_camera(bench_view(dem, 2400, 1100));
-    // Altitude bands as land cover: borders everywhere, as in a real map.
-    LandCover cover;
-    cover.classes.transform = dem.transform;
-    cover.classes.cells = Grid<LandCoverClass>(size, size);
-    for (std::size_t i = 0; i < cover.classes.cells.size(); ++i) {
-      const float z = dem.altitude_m[i];
-      cover.classes.cells[i] = z < 1700.F   ? LandCoverClass::forest
-                               : z < 2300.F ? LandCoverClass::alpine_grass
-                                            : LandCoverClass::rock;
-    }
-    Grid<float> generalized = dem.altitude_m;
-    const auto shared_dem = std::make_shared<const Dem>(std::move(dem));
-    const auto shared_cover = std::make_shared<const LandCover>(std::move(cover));
-    TerrainModel terrain;
-    const Cost model = measure([&] {
-      terrain = make_terrain_model(shared_dem, std::move(generalized), shared_cover, 1.6);
-    });
-    out.push_back({name + "/terrain_model",
-                   static_cast<double>(surface.vertices_m.size()) / model.cpu_s * 1e-6,
-                   "Mcells/CPU s"});
-    GuidanceBuffers buffers;
-    const std::vector<Cost> trace =
-        measure_fastest(options.repeats, {[&] {
-                          buffers = trace_guidance(terrain, surface, tracer, *camera, {},
-                                                   {0, 0, 2400, 1100}, silent_progress());
-                        }});
-    out.push_back({name + "/trace_2400x1100", trace[0].cpu_s, "CPU s"});
-    out.push_back({name + "/trace_2400x1100_wall", trace[0].wall_s, "s"});
-  }
-  return out;
-}
-
 std::vector<Measurement> bench_picture(const Options&);
 
 namespace {
@@ -252,60 +249,6 @@ std::vector<Measurement> bench_picture(const Options& options) {
     out.push_back({stage, found->second.cpu_s, "CPU s"});
     out.push_back({stage + "/share", 100.0 * cost.wall_s / all_one.wall_s, "% of one thread"});
     out.push_back({stage + "/two threads", cost.wall_s / found->second.wall_s, "times as fast"});
-  }
-  return out;
-}
-
-std::vector<Measurement> bench_rock(const Options&);
-
-std::vector<Measurement> bench_rock(const Options& options) {
-  constexpr int width = 1200;
-  constexpr int height = 550;
-  Dem dem = make_bench_dem(1024);
-  const DeformedSurface surface = make_bench_surface(dem);
-  const Tracer tracer(surface);
-  const auto camera = make_camera(bench_view(dem, width, height));
-  // Only rock: the cost of a rock wall without meadow.
-  LandCover cover;
-  cover.classes.transform = dem.transform;
-  cover.classes.cells =
-      Grid<LandCoverClass>(dem.altitude_m.width(), dem.altitude_m.height(), LandCoverClass::rock);
-  Grid<float> generalized = dem.altitude_m;
-  const auto shared_dem = std::make_shared<const Dem>(std::move(dem));
-  const TerrainModel terrain = make_terrain_model(
-      shared_dem, std::move(generalized), std::make_shared<const LandCover>(std::move(cover)), 1.6);
-  const GuidanceBuffers seen = trace_guidance(terrain, surface, tracer, *camera, {},
-                                              PixelRect{0, 0, width, height}, silent_progress());
-  std::size_t ground = 0;
-  for (std::size_t i = 0; i < seen.depth_m.size(); ++i) ground += seen.is_sky(i) ? 0U : 1U;
-  const double megapixels = static_cast<double>(ground) * 1e-6;
-
-  const Grid<std::uint8_t> marked(width, height, std::uint8_t{1});
-
-  std::vector<Measurement> out;
-  for (const int scale : {1, 4}) {
-    RockParameters parameters;
-    parameters.kind = &find_rock_kind("limestone");
-    parameters.light.pixels_per_unit = scale;
-    const GuidanceBuffers thin = thin_out({seen, 1, {0, 0}}, scale);
-    const WideView far{thin, scale, {0, 0}};
-    const std::vector<Cost> cost = measure_fastest(
-        options.repeats, {[&] {
-                            make_rock_relief(seen, far, parameters, {0, 0}, silent_progress());
-                          },
-                          [&] {
-                            shift_crests(seen, far, parameters, {0, 0}, {0, 0, width, height});
-                          },
-                          [&] { blur_on_surface(seen.sky_view, seen.depth_m, 4.0 * scale); },
-                          [&] {
-                            integrate_along_fall_line(seen, far, marked, 1, {0, 0}, scale);
-                          }});
-    const std::string name = fmt::format("{}_a_unit/", scale);
-    out.push_back({name + "relief_of_rock", cost[0].cpu_s / megapixels, "CPU s/Mpixel"});
-    out.push_back({name + "crests", cost[1].cpu_s / megapixels, "CPU s/Mpixel"});
-    out.push_back(
-        {name + "blur_on_surface", cost[2].cpu_s / (width * height * 1e-6), "CPU s/Mpixel"});
-    out.push_back({name + "ribs", cost[3].cpu_s / (width * height * 1e-6), "CPU s/Mpixel"});
   }
   return out;
 }
