@@ -114,8 +114,8 @@ Action add_cache_list(CommandOptions& command) {
 
 Action add_cache_clear(CommandOptions& command) {
   const auto days = std::make_shared<int>(0);
-  command.add_option("--older-than", *days, "Only entries that were not used for this many days")
-      .type_name("DAYS")
+  command
+      .add_option("--older-than DAYS", *days, "Only entries that were not used for this many days")
       .range(0, 36500);
   command.footer(
       "Removed entries are computed again when they are needed.\n"

@@ -69,14 +69,12 @@ Action add_diff(CommandOptions& command) {
   command.add_option("A", options->a, "A picture: OpenEXR, TIFF, PNG or JPEG").required();
   command.add_option("B", options->b, "Another picture of the same size").required();
   command
-      .add_option("--max-mean", options->max_mean,
+      .add_option("--max-mean X", options->max_mean,
                   "Largest mean difference of any channel that still counts as equal")
-      .type_name("X")
       .not_negative();
   command
-      .add_option("--max-difference", options->max_difference,
+      .add_option("--max-difference X", options->max_difference,
                   "Largest difference of any single pixel that still counts as equal")
-      .type_name("X")
       .not_negative();
   command.add_flag("--json", options->json, "As JSON");
   command.footer(

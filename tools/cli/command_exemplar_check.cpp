@@ -220,39 +220,33 @@ Action add_exemplar_check(CommandOptions& command) {
   const auto options = std::make_shared<ExemplarCheckOptions>();
   add_scene_options(command, options->scene);
   command
-      .add_option("--picture", options->pictures,
+      .add_option("--picture FILE", options->pictures,
                   "Instead of a scene: a painting (PNG, TIFF, JPEG); may be repeated")
-      .type_name("FILE")
       .repeated();
   command
       .add_option(
-          "--label", options->labels,
+          "--label FILE", options->labels,
           "Its label image: grey, one number per class, 255 is never used; one for each --picture")
-      .type_name("FILE")
       .repeated();
   command
-      .add_option("--guide", options->guides,
+      .add_option("--guide NAME FILE", options->guides,
                   "A guide of it: name (altitude is evaluated) and grey image; may be repeated")
-      .type_name("NAME FILE")
+      .repeated();
+  command.add_option(
+      "--target FILE", options->target,
+      "Label image of the picture to be made: checks whether there is enough texture for it");
+  command
+      .add_option("--target-guide NAME FILE", options->target_guides,
+                  "A guide of the picture to be made")
       .repeated();
   command
-      .add_option(
-          "--target", options->target,
-          "Label image of the picture to be made: checks whether there is enough texture for it")
-      .type_name("FILE");
-  command.add_option("--target-guide", options->target_guides, "A guide of the picture to be made")
-      .type_name("NAME FILE")
-      .repeated();
-  command
-      .add_option("--fallback", options->fallback,
+      .add_option("--fallback LABEL LABEL", options->fallback,
                   "Copies the second label's texture where the first has none")
-      .type_name("LABEL LABEL")
       .repeated();
   command
-      .add_option("--report", options->report,
+      .add_option("--report DIR", options->report,
                   "Also writes a folder with index.html: the paintings, a swatch of each class, "
                   "coverage charts")
-      .type_name("DIR")
       .files(FileUse::folder);
   command.footer(
       "For each class: number of texels, and how many of them lie well inside; how many pixels "

@@ -96,39 +96,32 @@ Action add_exemplar_paint(CommandOptions& command) {
   const auto options = std::make_shared<ExemplarPaintOptions>();
   add_scene_options(command, options->scene,
                     "A scene whose view is painted. Default: an example sheet of synthetic views");
-  command.add_option("--out", options->out, "Folder for the results; created if missing")
-      .type_name("DIR")
+  command.add_option("--out DIR", options->out, "Folder for the results; created if missing")
       .required()
       .files(FileUse::later);
+  command.add_option(
+      "--season PALETTE", options->season,
+      "Palette: summer, autumn, winter, steppe, high_desert, desert, evening, morning or a "
+      ".toml file. "
+      "Default of an example sheet: summer");
   command
-      .add_option(
-          "--season", options->season,
-          "Palette: summer, autumn, winter, steppe, high_desert, desert, evening, morning or a "
-          ".toml file. "
-          "Default of an example sheet: summer")
-      .type_name("PALETTE");
-  command.add_option("--size", options->size, "Side of the example sheet in pixels. Default: 4096")
-      .type_name("PX")
+      .add_option("--size PX", options->size, "Side of the example sheet in pixels. Default: 4096")
       .range(256, 16384);
   command
-      .add_option("--dpi", options->dots_per_inch,
+      .add_option("--dpi DPI", options->dots_per_inch,
                   "Resolution that the example sheet's strokes are sized for, that of the panorama "
                   "that will copy them. Default: 50.8")
-      .type_name("DPI")
       .range(5.0, 2540.0);
-  command.add_option("--seed", options->seed, "Random seed of mountains and strokes")
-      .type_name("N")
+  command.add_option("--seed N", options->seed, "Random seed of mountains and strokes")
       .range(std::uint64_t{0}, ExampleSheetPlan::largest_seed);
   command
-      .add_option("--plan", options->plan,
+      .add_option("--plan FILE", options->plan,
                   "A sheet.toml: paints that example sheet instead of the built-in one")
-      .type_name("FILE")
       .files(FileUse::input);
   command.add_force(options->force);
   command
-      .add_option("--tile", options->tile_size,
+      .add_option("--tile N", options->tile_size,
                   "Side of the tiles that threads work on, in pixels. Changes no pixel")
-      .type_name("N")
       .show_default()
       .range(8, 4096);
   command.footer(

@@ -38,41 +38,33 @@ glm::dvec2 parse_size(const std::string& text) {
 }  // namespace
 
 void add_fetch_options(CommandOptions& command, FetchOptions& options) {
-  command
-      .add_option(
-          "--at", options.at,
-          "The centre of the area: longitude and latitude in degrees, west and south negative")
-      .type_name("LON,LAT");
-  command
-      .add_option("--size", options.size,
-                  "Size of the area in km: a side of the square, or west to east x south to north. "
-                  "Default: 60")
-      .type_name("KM");
+  command.add_option(
+      "--at LON,LAT", options.at,
+      "The centre of the area: longitude and latitude in degrees, west and south negative");
+  command.add_option(
+      "--size KM", options.size,
+      "Size of the area in km: a side of the square, or west to east x south to north. "
+      "Default: 60");
   command.add_flag("--no-land-cover", options.no_land_cover, "Only the elevation");
   add_source_options(command, options);
 }
 
 void add_source_options(CommandOptions& command, FetchOptions& options) {
   command
-      .add_option("--source", options.sources,
+      .add_option("--source NAME", options.sources,
                   fmt::format("A source instead of copernicus_glo30 or esa_worldcover: {}, or a "
                               ".toml file (docs/fetch.md); may be repeated",
                               fmt::join(built_in_map_sources(), ", ")))
-      .type_name("NAME")
       .repeated();
-  command
-      .add_option("--cell", options.cell_m,
-                  "Cell size of the elevation in m. Default: the source's, 30")
-      .type_name("M");
-  command
-      .add_option("--cover-cell", options.cover_cell_m,
-                  "Cell size of the land cover in m. Default: the source's, 10, up to 80 × 80 km")
-      .type_name("M");
+  command.add_option("--cell M", options.cell_m,
+                     "Cell size of the elevation in m. Default: the source's, 30");
+  command.add_option(
+      "--cover-cell M", options.cover_cell_m,
+      "Cell size of the land cover in m. Default: the source's, 10, up to 80 × 80 km");
   command
       .add_option(
-          "--mirror", options.mirror,
+          "--mirror URL", options.mirror,
           "A mirror that serves the sources' files under the same paths; also $BELVEDERE_MIRROR")
-      .type_name("URL")
       .environment("BELVEDERE_MIRROR");
   command.add_flag(
       "--refresh", options.refresh,
@@ -80,20 +72,17 @@ void add_source_options(CommandOptions& command, FetchOptions& options) {
   // A command whose scene may have files on servers already has this option.
   if (!command.has_option("--http-silence"))
     command
-        .add_option("--http-silence", options.http_options.silence_s,
+        .add_option("--http-silence S", options.http_options.silence_s,
                     "Timeout in seconds: how long a server may send nothing before the connection "
                     "counts as lost")
-        .type_name("S")
         .show_default();
   command
-      .add_option("--http-time", options.http_options.answer_s,
+      .add_option("--http-time S", options.http_options.answer_s,
                   "Maximum duration of one response of a server, in seconds")
-      .type_name("S")
       .show_default();
   command
-      .add_option("--http-retries", options.http_options.retries,
+      .add_option("--http-retries N", options.http_options.retries,
                   "Number of retries of a failed request, with increasing delay")
-      .type_name("N")
       .show_default();
 }
 
@@ -203,10 +192,9 @@ Action add_fetch(CommandOptions& command) {
   command.option("--at").required();
   command
       .add_option(
-          "--out", options->out,
+          "--out DIR", options->out,
           "The folder for elevation.tif, land_cover.tif and fetched.toml; created if missing")
       .required()
-      .type_name("DIR")
       .files(FileUse::later);
   command.add_force(options->fetch.replace);
   add_run_options(command, options->run);

@@ -46,8 +46,9 @@ std::string preset_lines() {
   return out;
 }
 
-void add_weights(CommandOptions& command, const char* name, Weights& weights, const char* meaning) {
-  command.add_option(name, weights, meaning).type_name("W1,…,WN").list(',');
+void add_weights(CommandOptions& command, const std::string& name, Weights& weights,
+                 const char* meaning) {
+  command.add_option(name + " W1,…,WN", weights, meaning).list(',');
 }
 
 // Options of the run other than weights and masks, as typed, each with a space before it: how break
@@ -84,9 +85,8 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
   std::vector<std::string> names;
   for (const GeneralizePreset& preset : generalize_presets()) names.emplace_back(preset.name);
   command
-      .add_option("--preset", options.preset,
+      .add_option("--preset NAME", options.preset,
                   "Named weights and masks; options given with it override them")
-      .type_name("NAME")
       .one_of(names);
   add_weights(command, "--global", options.global,
               "Weights of the bands, the largest landforms first; their number is the number of "
@@ -101,33 +101,28 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
   add_weights(command, "--background-valleys", options.background_valleys,
               "Added along valley lines far from the viewer");
   command
-      .add_option("--base", options.bands.base,
+      .add_option("--base W", options.bands.base,
                   "Weight of what is larger than all bands: raises or lowers the land as a whole, "
                   "by a share of its altitude")
-      .type_name("W")
       .show_default()
       .range(0.0, 5.0);
   const Option viewer = command
-                            .add_option("--viewer", options.viewer,
+                            .add_option("--viewer E,N", options.viewer,
                                         "Position of the viewer, in the DEM's coordinates")
-                            .type_name("E,N")
                             .list(',', 2);
   command
-      .add_option("--distances", options.distances,
+      .add_option("--distances NEAR,FAR", options.distances,
                   "Metres: only foreground up to the first, only background from the second")
-      .type_name("NEAR,FAR")
       .list(',', 2)
       .needs(viewer);
   command
-      .add_option("--mask", options.mask,
+      .add_option("--mask FILE", options.mask,
                   "Raster mask: 0 unchanged, 1 (or 255) generalized; any grid and coordinates")
-      .type_name("FILE")
       .files(FileUse::input);
   command
-      .add_option("--mask-slope", options.mask_slope,
+      .add_option("--mask-slope FLAT,STEEP", options.mask_slope,
                   "Degrees: ground flatter than the first is unchanged, steeper than the second is "
                   "generalized")
-      .type_name("FLAT,STEEP")
       .list(',', 2);
   command.add_flag(
       "--automatic-mask", options.automatic_mask,
@@ -136,35 +131,30 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
                    "Generalizes lakes like land; otherwise they keep their level");
   command
       .add_option(
-          "--curvature", options.curvature,
+          "--curvature bounded|plan", options.curvature,
           "Curvature that finds ridges: bounded is quiet in flats, plan also finds gentle ones")
-      .type_name("bounded|plan")
       .show_default()
       .one_of({"bounded", "plan"});
   command
-      .add_option("--full-curvature", options.bands.full_curvature,
+      .add_option("--full-curvature X", options.bands.full_curvature,
                   "Curvature times cell size of a full ridge; a smaller value makes more of the "
                   "ground a ridge. 0: 0.15 for bounded, 0.8 for plan")
-      .type_name("X")
       .range(0.0, 10.0);
   command
-      .add_option("--blur", options.bands.blur_cells,
+      .add_option("--blur CELLS", options.bands.blur_cells,
                   "Width of the transition between ridge and slope, in cells of each band")
-      .type_name("CELLS")
       .show_default()
       .range(0.0, 10.0);
   command
-      .add_option("--exponent", options.bands.exponent,
+      .add_option("--exponent X", options.bands.exponent,
                   "1: detail on ridges and valley lines only; towards 0 slopes keep theirs too")
-      .type_name("X")
       .show_default()
       .range(0.0, 4.0);
   add_terrain_operators(command, options.operators);
   command
       .add_option(
-          "--report", options.report,
+          "--report DIR", options.report,
           "Also writes a folder with a page of pictures and numbers: index.html, report.json")
-      .type_name("DIR")
       .files(FileUse::folder);
   add_run_options(command, options, "altitude");
   command.footer(

@@ -116,47 +116,38 @@ Action add_labels(CommandOptions& command) {
   const auto options = std::make_shared<LabelsOptions>();
   add_scene_options(command, options->scene);
   command
-      .add_option("--points", options->points,
+      .add_option("--points FILE", options->points,
                   "Points with names, instead of those of the scene's [labels]: .csv, .gpkg, "
                   ".geojson, .shp, .fgb, .gpx or .osm; may be repeated")
-      .type_name("FILE")
       .files(FileUse::input);
   command
-      .add_option("--tracks", options->tracks,
+      .add_option("--tracks FILE", options->tracks,
                   "Tracks to draw, with a profile each: .gpx, .gpkg, .geojson, .shp or .fgb; may "
                   "be repeated")
-      .type_name("FILE")
       .files(FileUse::input);
   command
-      .add_option("--shapes", options->shapes,
+      .add_option("--shapes FILE", options->shapes,
                   "Lines and areas whose names are curved along them, valleys and lakes: .gpkg, "
                   ".geojson, .shp or .fgb; may be repeated")
-      .type_name("FILE")
       .files(FileUse::input);
+  command.add_option("--style STYLE", options->style,
+                     "Style of the names: classic, or a .toml file. Default: the scene's");
   command
-      .add_option("--style", options->style,
-                  "Style of the names: classic, or a .toml file. Default: the scene's")
-      .type_name("STYLE");
-  command
-      .add_option("--summits", options->summits,
+      .add_option("--summits N", options->summits,
                   "Number of the DEM's own summits to label as well, with their altitudes. "
                   "Default: 30 without --points")
-      .type_name("N")
       .range(0, 10000);
   command
-      .add_option("--min-prominence", options->min_prominence_m,
+      .add_option("--min-prominence M", options->min_prominence_m,
                   "Prominence from which a point of the DEM counts as a summit, in metres above "
                   "the highest pass to higher ground. Default: the scene's, 150")
-      .type_name("M")
       .range(1.0, 9000.0);
   command
-      .add_option("--under", options->under,
+      .add_option("--under FILE", options->under,
                   "A picture of the scene that labels.svg shows beneath the names")
-      .type_name("FILE")
       .files(FileUse::input);
-  command.add_option("--out", options->out, "Folder for the results; created if missing")
+  command.add_option("--out DIR", options->out, "Folder for the results; created if missing")
       .required()
-      .type_name("DIR")
       .files(FileUse::later);
   command.add_force(options->force);
   command.footer(

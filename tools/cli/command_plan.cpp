@@ -111,13 +111,11 @@ Action add_plan(CommandOptions& command) {
   add_layers_option(command, options->layers);
   command
       .add_option(
-          "--out", options->folder,
+          "--out DIR", options->folder,
           "Folder that every machine can access; created if missing. Default: named like the scene")
-      .type_name("DIR")
       .files(FileUse::later);
   command.add_force(options->force);
-  command.add_option("--parts", options->parts, "Number of parts of the sheet")
-      .type_name("N")
+  command.add_option("--parts N", options->parts, "Number of parts of the sheet")
       .show_default()
       .range(1, 100000);
   command.footer(
@@ -168,8 +166,7 @@ Action add_part(CommandOptions& command) {
 Action add_join(CommandOptions& command) {
   const auto options = std::make_shared<PlanOptions>();
   add_shared_folder(command, *options);
-  command.add_option("--out", options->out, "Folder for the results. Default: that of the plan")
-      .type_name("DIR")
+  command.add_option("--out DIR", options->out, "Folder for the results. Default: that of the plan")
       .files(FileUse::later);
   command.add_force(options->force);
   command.footer(

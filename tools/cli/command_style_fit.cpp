@@ -130,34 +130,28 @@ void write_fitted_style(const std::string& painting, const std::string& out, Pro
 Action add_style_fit(CommandOptions& command) {
   const auto options = std::make_shared<StyleFitOptions>();
   command
-      .add_option("PAINTING", options->painting,
+      .add_option("PAINTING PICTURE", options->painting,
                   "Scan of a landscape painting: PNG, TIFF or JPEG, at least 500 pixels wide")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::input);
   command
-      .add_option("--classes", options->classes,
+      .add_option("--classes MASK", options->classes,
                   "Mask of class numbers (see `exemplar segment`), 200 for distant ranges in haze "
                   "colour, 255 for unused pixels. Default: inferred classes")
-      .type_name("MASK")
       .files(FileUse::input);
-  command.add_option("--out", options->out, "Style file to write: .toml, about 20 kB")
+  command.add_option("--out STYLE", options->out, "Style file to write: .toml, about 20 kB")
       .required()
-      .type_name("STYLE")
       .files(FileUse::writes);
   command
-      .add_option("--report", options->report,
+      .add_option("--report DIR", options->report,
                   "Also write a page: colours, strokes to scale, what was derived and from what")
-      .type_name("DIR")
       .files(FileUse::folder);
-  command.add_option("--name", options->name, "Name of the style. Default: the name of the file")
-      .type_name("NAME");
-  command
-      .add_option("--origin", options->origin,
-                  "Painter, title, year and source of the picture, stored in the file")
-      .type_name("TEXT");
-  command.add_option("--licence", options->licence, "Licence of the picture, stored in the file")
-      .type_name("TEXT");
+  command.add_option("--name NAME", options->name,
+                     "Name of the style. Default: the name of the file");
+  command.add_option("--origin TEXT", options->origin,
+                     "Painter, title, year and source of the picture, stored in the file");
+  command.add_option("--licence TEXT", options->licence,
+                     "Licence of the picture, stored in the file");
   add_run_options(command, *options, "byte");
   command.footer(
       "Fits colours by class and light, air, strokes and sky of a painting and writes them to a "

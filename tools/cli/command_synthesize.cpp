@@ -268,133 +268,112 @@ Action add_synthesize(CommandOptions& command) {
   SynthesisParameters& parameters = options->parameters;
   command.add_force(options->force);
   command
-      .add_option("--picture", options->files.pictures,
+      .add_option("--picture STYLE", options->files.pictures,
                   "The painting (PNG, TIFF, JPEG); may be repeated")
-      .type_name("STYLE")
       .required()
       .repeated();
   const Option label =
       command
-          .add_option("--label", options->files.labels,
+          .add_option("--label STYLE TARGET", options->files.labels,
                       "Label images of the painting and of the target: grey, one number per class, "
                       "255 is never used, or drawn in flat colours; one for each --picture")
-          .type_name("STYLE TARGET")
           .takes("two files, of the painting and of the target")
           .repeated();
   const Option guide = command
-                           .add_option("--guide", options->guides,
+                           .add_option("--guide NAME STYLE TARGET WEIGHT", options->guides,
                                        "A further guide: name, grey image of the painting, of the "
                                        "target, and weight 0…100; may be repeated")
-                           .type_name("NAME STYLE TARGET WEIGHT")
                            .takes("a name, two files and a weight")
                            .repeated();
   command
-      .add_option("--out", options->out,
+      .add_option("--out FILE", options->out,
                   "The result: .png (8 bit) or .tif (16 bit); with --replay also .exr")
-      .type_name("FILE")
       .required()
       .files(FileUse::later);
   const Option match =
       command
           .add_option(
-              "--match", options->match,
+              "--match FILE", options->match,
               "Also writes where each pixel was copied from: OpenEXR with channels exemplar, x, y")
-          .type_name("FILE")
           .files(FileUse::writes);
   const Option report =
       command
-          .add_option("--report", options->report,
+          .add_option("--report DIR", options->report,
                       "Also writes a folder with index.html: quality of the result, origin of its "
                       "pixels, cost of each guide, worst places")
-          .type_name("DIR")
           .files(FileUse::folder);
   command
       .add_option(
-          "--exclude", options->files.exclusions,
+          "--exclude MASK", options->files.exclusions,
           "Grey image of the painting's size: pixels that are not black are never copied "
           "(lettering, frames, figures); the first belongs to the first --picture …, - is none")
-      .type_name("MASK")
       .repeated();
   command
-      .add_option("--harmonize", options->files.harmonize,
+      .add_option("--harmonize HOW", options->files.harmonize,
                   "Matches the colours of several paintings first: label by label to their common "
                   "colours or to the first; or by\n"
                   "regions of similar colour, ignoring labels, to the first")
-      .type_name("HOW")
       .show_default()
       .one_of({"off", "common", "first", "regions"});
   command
-      .add_option("--fallback", options->fallback,
+      .add_option("--fallback LABEL LABEL", options->fallback,
                   "Copies the second label's texture where the first has none")
-      .type_name("LABEL LABEL")
       .repeated();
-  command.add_option("--seed", parameters.seed, "Random seed of the result")
-      .type_name("N")
-      .show_default();
-  command.add_option("--levels", parameters.levels, "Levels from coarse to fine")
-      .type_name("N")
+  command.add_option("--seed N", parameters.seed, "Random seed of the result").show_default();
+  command.add_option("--levels N", parameters.levels, "Levels from coarse to fine")
       .show_default()
       .range(1, 8);
-  command.add_option("--reuse", parameters.reuse, "Strength of the penalty on repetition")
-      .type_name("X")
+  command.add_option("--reuse X", parameters.reuse, "Strength of the penalty on repetition")
       .show_default()
       .range(0.0, 10.0);
   command
-      .add_option("--copy-cap", parameters.copy_cap,
+      .add_option("--copy-cap N", parameters.copy_cap,
                   "Largest piece copied whole, in pixels of area")
-      .type_name("N")
       .show_default()
       .range(16, 100000);
   command
-      .add_option("--neighbourhood", parameters.neighbourhood,
+      .add_option("--neighbourhood N", parameters.neighbourhood,
                   "Side of the patches that are compared, in pixels: 3, 5, 7, 9 or 11")
-      .type_name("N")
       .show_default()
       .one_of({3, 5, 7, 9, 11});
   command
       .add_option(
-          "--patch-distance", parameters.distance,
+          "--patch-distance WHICH", parameters.distance,
           "How patches are compared: squared differences of colour, or the same without the "
           "difference of their mean lightness")
-      .type_name("WHICH")
       .show_default()
       .one_of({"ssd", "normalized"});
   command
-      .add_option("--surroundings", parameters.surroundings, "Weight of the classes around a pixel")
-      .type_name("X")
+      .add_option("--surroundings X", parameters.surroundings,
+                  "Weight of the classes around a pixel")
       .show_default()
       .range(0.0, 100.0);
   command
-      .add_option("--surroundings-of", parameters.surroundings_of,
+      .add_option("--surroundings-of WHICH", parameters.surroundings_of,
                   "Which of the surrounding classes count: the commonest, or all by their shares")
-      .type_name("WHICH")
       .show_default()
       .one_of({"commonest", "all"});
   command
-      .add_option("--class-dissimilarity", options->class_dissimilarity,
+      .add_option("--class-dissimilarity LABEL LABEL X", options->class_dissimilarity,
                   "Dissimilarity of two labels as surroundings: 0 (interchangeable) to 1, the "
                   "default; may be repeated")
-      .type_name("LABEL LABEL X")
       .repeated();
   const Option replay = command
-                            .add_option("--replay", options->replay,
+                            .add_option("--replay MATCH", options->replay,
                                         "Copies other layers of the same paintings, one --picture "
                                         "each, exactly as a --match file records; needs no labels")
-                            .type_name("MATCH")
                             .excludes({label, guide, match, report});
   command
       .add_option(
-          "--sweep", options->sweeps,
+          "--sweep NAME=V,V…", options->sweeps,
           "Tries several values of seed, levels, reuse, copy-cap, neighbourhood, surroundings or "
           "of a guide's weight; --out is then a folder. Give it twice to vary two at once")
-      .type_name("NAME=V,V…")
       .repeated()
       .excludes({match, report, replay});
   add_run_options(command, *options);
   command
-      .add_option("--memory", options->memory_mib,
+      .add_option("--memory MIB", options->memory_mib,
                   "Memory for pictures; 0, the default, is three quarters of the machine's")
-      .type_name("MIB")
       .range(0, 1 << 30);
   command.footer(
       "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"

@@ -41,28 +41,23 @@ WebPicture picture_of(const std::string& text) {
 Action add_web(CommandOptions& command) {
   const auto options = std::make_shared<WebOptions>();
   command.add_option("DIR", options->from, "A folder written by belvedere render").required();
-  command.add_option("--out", options->out, "Folder of the page. Default: DIR/web")
-      .type_name("DIR")
+  command.add_option("--out DIR", options->out, "Folder of the page. Default: DIR/web")
       .files(FileUse::later);
   command.add_option(
       "--name", options->name,
       "Name of the picture beside others, such as Summer. Default: its folder's name");
   command
-      .add_option("--also", options->also,
+      .add_option("--also DIR[=NAME]", options->also,
                   "Another picture of the same view, compared by a movable divider; may be "
                   "repeated: --also winter=Winter")
-      .type_name("DIR[=NAME]")
       .repeated();
   command
-      .add_option("--cells", options->page.ground_cells,
+      .add_option("--cells N", options->page.ground_cells,
                   "Number of positions of the picture with coordinates in the page; 9 bytes each")
-      .type_name("N")
       .show_default()
       .range(100, 20000000);
   command.add_force(options->page.replace);
-  command.add_option("--threads", options->threads, "Number of threads; 0: all")
-      .type_name("N")
-      .range(0, 1024);
+  command.add_option("--threads N", options->threads, "Number of threads; 0: all").range(0, 1024);
   command.add_flag("-q,--quiet", options->quiet, "No progress and no notes");
   command.footer(
       "Writes an interactive panorama: one folder that needs no server. Open index.html, or copy "

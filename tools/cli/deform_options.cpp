@@ -87,49 +87,44 @@ void add_deform_options(CommandOptions& command, DeformOptions& options) {
           "OUT", options.dem_out,
           "Writes the deformed ground as a DEM: GeoTIFF, or ESRI ASCII for the extension .asc")
       .files(FileUse::writes, raster_files);
-  const auto one = [&](const char* name, std::string& value, const char* meaning,
-                       const char* type) {
-    return command.add_option(name, value, meaning).type_name(type);
-  };
-  const auto many = [&](const char* name, std::vector<std::string>& values, const char* meaning,
-                        const char* type) {
-    command.add_option(name, values, meaning).type_name(type).repeated();
-  };
-  one("--viewer", options.viewer,
-      "Position that distances are measured from, instead of the scene's camera", "E,N");
-  one("--exaggeration", options.exaggeration, "Vertical exaggeration", "FACTOR");
-  one("--bend", options.bend, "A bend by distances (m) and inclinations (degrees) of level ground",
-      "M:DEG,M:DEG…");
-  many("--handle", options.handles,
-       "A piece of ground to move: \"E,N radius=M core=M rotate=DEG move=E,N scale=F raise=M\"; "
-       "may be repeated",
-       "HANDLE");
-  many("--locate", options.locate,
-       "Locates a point in the picture and whether it is visible; for a file (.csv, .gpkg, "
-       ".geojson, .shp, .fgb, .gpx) all its points, as a table; may be repeated",
-       "E,N|FILE");
-  many("--at", options.at, "Locates a pixel of the picture on the ground; may be repeated", "X,Y");
+  command.add_option("--viewer E,N", options.viewer,
+                     "Position that distances are measured from, instead of the scene's camera");
+  command.add_option("--exaggeration FACTOR", options.exaggeration, "Vertical exaggeration");
+  command.add_option("--bend M:DEG,M:DEG…", options.bend,
+                     "A bend by distances (m) and inclinations (degrees) of level ground");
+  command
+      .add_option(
+          "--handle HANDLE", options.handles,
+          "A piece of ground to move: \"E,N radius=M core=M rotate=DEG move=E,N scale=F raise=M\"; "
+          "may be repeated")
+      .repeated();
+  command
+      .add_option(
+          "--locate E,N|FILE", options.locate,
+          "Locates a point in the picture and whether it is visible; for a file (.csv, .gpkg, "
+          ".geojson, .shp, .fgb, .gpx) all its points, as a table; may be repeated")
+      .repeated();
+  command
+      .add_option("--at X,Y", options.at,
+                  "Locates a pixel of the picture on the ground; may be repeated")
+      .repeated();
   command.add_flag("--search-bend", options.search_bend,
                    "Searches the bend that shows most valley floor, and prints its keys");
   command
-      .add_option("--max-distortion", options.max_distortion_deg,
+      .add_option("--max-distortion DEG", options.max_distortion_deg,
                   "With --search-bend: maximum tilt of level ground, degrees")
-      .type_name("DEG")
       .show_default();
   command
-      .add_option("--max-bending", options.max_bending_deg,
+      .add_option("--max-bending DEG", options.max_bending_deg,
                   "With --search-bend: maximum change of tilt, degrees in 10 km")
-      .type_name("DEG")
       .show_default();
-  command.add_option("--points", options.points, "With --search-bend: control points, 3 to 8")
-      .type_name("N")
+  command.add_option("--points N", options.points, "With --search-bend: control points, 3 to 8")
       .show_default();
-  one("--out", options.out,
-      "With --search-bend: a small picture of the ground before (above) and after (below). With "
-      "--locate FILE: the table, instead of "
-      "printing "
-      "it",
-      "FILE")
+  command
+      .add_option("--out FILE", options.out,
+                  "With --search-bend: a small picture of the ground before (above) and after "
+                  "(below). With "
+                  "--locate FILE: the table, instead of printing it")
       .files(FileUse::writes);
 }
 

@@ -149,21 +149,19 @@ Action add_verify(CommandOptions& command) {
   add_file_options(command, options->scene);
   command.add_force(options->force);
   command
-      .add_option("--out", options->out, "Keeps the pictures of each scene in a folder of its name")
-      .type_name("DIR")
+      .add_option("--out DIR", options->out,
+                  "Keeps the pictures of each scene in a folder of its name")
       .files(FileUse::later);
+  command.add_option(
+      "--against DIR", options->against,
+      "Pictures of an earlier run, as --out kept them: the page then shows the differences");
   command
-      .add_option(
-          "--against", options->against,
-          "Pictures of an earlier run, as --out kept them: the page then shows the differences")
-      .type_name("DIR");
-  command.add_option("--junit", options->junit, "Writes the results as JUnit XML, for CI services")
-      .type_name("FILE")
+      .add_option("--junit FILE", options->junit,
+                  "Writes the results as JUnit XML, for CI services")
       .files(FileUse::writes);
   command
-      .add_option("--report", options->page,
+      .add_option("--report FILE", options->page,
                   "Writes a self-contained page of the differences, with pictures")
-      .type_name("FILE")
       .files(FileUse::page);
   add_run_options(command, options->scene);
   command.footer(
@@ -273,10 +271,9 @@ Action add_lock(CommandOptions& command) {
   add_scene_options(command, options->scene, "The scene file");
   command.option("SCENE").required();
   command
-      .add_option("--width", options->width,
+      .add_option("--width PX", options->width,
                   "Width of the verified picture in pixels, its height in proportion. Default: as "
                   "in the existing lock, else 800, or the scene's if that is less")
-      .type_name("PX")
       .range(16, 65535);
   command.add_flag("--update", options->update,
                    "Rewrites the lock if something differs from the existing one");

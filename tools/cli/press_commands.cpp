@@ -21,9 +21,8 @@
 namespace belvedere::tools {
 
 void add_press_options(CommandOptions& command, PressOptions& options, bool conversion) {
-  command.add_option("--profile", options.profile, "ICC profile of the printing press, CMYK")
+  command.add_option("--profile FILE", options.profile, "ICC profile of the printing press, CMYK")
       .required()
-      .type_name("FILE")
       .files(FileUse::input);
   if (!conversion) return;
   command
@@ -86,19 +85,16 @@ std::function<int()> add_proof(CommandOptions& command) {
   add_press_options(command, options->press, true);
   command.add_flag("--paper", options->paper, "Simulates the paper's colour and the press's black");
   command
-      .add_option("--outside", options->outside_delta_e,
+      .add_option("--outside DE", options->outside_delta_e,
                   "ΔE2000 above which a colour counts as unprintable")
-      .type_name("DE")
       .range(0.1, 50.0)
       .show_default();
   command
-      .add_option("--ink-limit", options->ink_limit_percent,
+      .add_option("--ink-limit PERCENT", options->ink_limit_percent,
                   "Total ink above which pixels are counted; 0: the profile's limit")
-      .type_name("PERCENT")
       .range(0.0, 400.0);
-  command.add_option("--out", options->out, "Folder for the two pictures")
+  command.add_option("--out DIR", options->out, "Folder for the two pictures")
       .required()
-      .type_name("DIR")
       .files(FileUse::folder);
   command.add_flag("--json", options->json, "The figures as JSON");
   command.add_flag("--quiet", options->quiet, "No progress");
@@ -164,9 +160,8 @@ std::function<int()> add_palette_check(CommandOptions& command) {
   command.add_option("PALETTE", options->palettes, "Built-in palettes or .toml files").required();
   add_press_options(command, options->press, false);
   command
-      .add_option("--outside", options->outside_delta_e,
+      .add_option("--outside DE", options->outside_delta_e,
                   "ΔE2000 above which a colour counts as unprintable")
-      .type_name("DE")
       .range(0.1, 50.0)
       .show_default();
   command.add_flag("--json", options->json, "As JSON");
@@ -245,43 +240,34 @@ std::function<int()> add_pdf(CommandOptions& command) {
   add_press_options(command, options->press, true);
   command.option("--profile").required(false);
   command
-      .add_option("--ink-limit", pdf.ink_limit_percent,
+      .add_option("--ink-limit PERCENT", pdf.ink_limit_percent,
                   "Total ink above which pixels are counted; 0: the profile's limit")
-      .type_name("PERCENT")
       .range(0.0, 400.0);
   command.add_option("--bits", pdf.bits, "Bits per channel").one_of({8, 16}).show_default();
   command
-      .add_option("--width-mm", pdf.width_mm,
+      .add_option("--width-mm MM", pdf.width_mm,
                   "Width of the picture in print. Default: by its resolution")
-      .type_name("MM")
       .range(10.0, 20000.0);
   command
-      .add_option("--labels", pdf.labels,
+      .add_option("--labels FILE", pdf.labels,
                   "An SVG over the whole picture, as belvedere labels writes it: stays vectors")
-      .type_name("FILE")
       .files(FileUse::input);
   command
-      .add_option("--bleed", pdf.pages.bleed_mm, "Bleed: the edge of the picture that is cut away")
-      .type_name("MM")
+      .add_option("--bleed MM", pdf.pages.bleed_mm,
+                  "Bleed: the edge of the picture that is cut away")
       .range(0.0, 50.0);
   command.add_flag("--marks", pdf.pages.marks, "Crop marks");
-  command
-      .add_option("--paper", options->paper,
-                  "Splits it into pages of this size: A4, A3, A3-landscape … or WIDTHxHEIGHT in mm")
-      .type_name("SIZE");
-  command.add_option("--margin", pdf.pages.margin_mm, "Margin around each page")
-      .type_name("MM")
+  command.add_option(
+      "--paper SIZE", options->paper,
+      "Splits it into pages of this size: A4, A3, A3-landscape … or WIDTHxHEIGHT in mm");
+  command.add_option("--margin MM", pdf.pages.margin_mm, "Margin around each page")
       .range(0.0, 100.0)
       .show_default();
-  command.add_option("--overlap", pdf.pages.overlap_mm, "Overlap of pages, for gluing")
-      .type_name("MM")
+  command.add_option("--overlap MM", pdf.pages.overlap_mm, "Overlap of pages, for gluing")
       .range(0.0, 100.0)
       .show_default();
-  command.add_option("--title", pdf.title, "Title of the document").type_name("TEXT");
-  command.add_option("--out", options->out, "The PDF")
-      .required()
-      .type_name("FILE")
-      .files(FileUse::writes);
+  command.add_option("--title TEXT", pdf.title, "Title of the document");
+  command.add_option("--out FILE", options->out, "The PDF").required().files(FileUse::writes);
   command.add_flag("--quiet", options->quiet, "No progress");
   command.footer(
       "With a press profile the file is PDF/X-4: CMYK, output intent, page boxes. Without one it "

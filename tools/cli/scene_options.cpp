@@ -18,17 +18,15 @@ namespace belvedere::tools {
 void add_file_options(CommandOptions& command, SceneOptions& options) {
   command
       .add_option(
-          "--data", options.files.data_folders,
+          "--data DIR", options.files.data_folders,
           "A folder with files of the scene, searched after the scene's own; may be repeated")
-      .type_name("DIR")
       .repeated();
   command.add_flag("--allow-http", options.allow_http,
                    "Allows addresses (https://…) of rasters; otherwise no server is contacted");
   command
-      .add_option("--http-silence", options.http_silence_s,
+      .add_option("--http-silence S", options.http_silence_s,
                   "Timeout in seconds: how long a server may send nothing before the connection "
                   "counts as lost")
-      .type_name("S")
       .show_default()
       .range(1, 3600);
 }
@@ -36,9 +34,8 @@ void add_file_options(CommandOptions& command, SceneOptions& options) {
 void add_run_options(CommandOptions& command, SceneOptions& options) {
   command
       .add_option(
-          "--memory", options.memory_mib,
+          "--memory MIB", options.memory_mib,
           "Memory that the program may use; 0, the default, is three quarters of the machine's")
-      .type_name("MIB")
       .range(0, 1 << 30);
   command.add_flag("--no-cache", options.no_cache,
                    "Does not use the cache: computes everything again and keeps nothing; see "
@@ -50,10 +47,9 @@ void add_scene_options(CommandOptions& command, SceneOptions& options, const std
   command.add_option("SCENE", options.scene, meaning);
   add_file_options(command, options);
   command
-      .add_option("--set", options.files.settings,
+      .add_option("--set KEY=VALUE", options.files.settings,
                   "Overrides a key of the scene: --set output.width=1200, --set exemplar.0.seed=3; "
                   "may be repeated")
-      .type_name("KEY=VALUE")
       .repeated();
   add_run_options(command, options);
 }
@@ -68,11 +64,10 @@ void add_layers_option(CommandOptions& command, std::vector<std::string>& layers
   std::vector<std::string> extensions;
   for (const LayerFormat& format : layer_formats()) extensions.push_back(format.extension);
   command
-      .add_option("--layers", layers,
+      .add_option(fmt::format("--layers {},…", fmt::join(extensions, "|")), layers,
                   "Also writes the picture in layers (ground, strokes, trees, houses …) as "
                   "panorama.ora (GIMP, Krita; 16 bits), panorama.psd (Photoshop, Affinity; 16 "
                   "bits) or panorama_layers.exr (Nuke, Natron, Blender; linear light)")
-      .type_name(fmt::format("{},…", fmt::join(extensions, "|")))
       .list(',')
       .one_of(extensions);
 }

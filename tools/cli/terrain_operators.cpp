@@ -12,25 +12,20 @@ void add_terrain_operators(CommandOptions& command, TerrainOperators& operators)
                    "First removes stripes along rows and columns");
   command.add_flag("--line-integral", operators.line_integral,
                    "Then smooths slopes along slope lines and keeps ridges sharp (Jenny 2021)");
+  command.add_option("--widen-valleys METRES", operators.widen_valleys_m,
+                     "Last widens the floors of large valleys by this many metres");
   command
-      .add_option("--widen-valleys", operators.widen_valleys_m,
-                  "Last widens the floors of large valleys by this many metres")
-      .type_name("METRES");
-  command
-      .add_option("--hillshade", operators.hillshade,
+      .add_option("--hillshade FILE", operators.hillshade,
                   "Also writes the result's shaded relief, .tif")
-      .type_name("FILE")
       .files(FileUse::writes);
   const Option contours =
       command
-          .add_option("--contours", operators.contours,
+          .add_option("--contours FILE", operators.contours,
                       "Also writes the result's contour lines, .gpkg, .geojson or .shp")
-          .type_name("FILE")
           .files(FileUse::writes, contour_files);
   command
-      .add_option("--contour-interval", operators.contour_interval_m,
+      .add_option("--contour-interval METRES", operators.contour_interval_m,
                   "Metres between contour lines")
-      .type_name("METRES")
       .show_default()
       .needs(contours);
 }
@@ -62,16 +57,13 @@ void write_products(const Raster<float>& result, const TerrainOperators& operato
 
 void add_elevation_options(CommandOptions& command, ElevationOptions& options) {
   command
-      .add_option("--encoding", options.encoding,
+      .add_option("--encoding NAME", options.encoding,
                   "How the colours of map tiles encode heights: terrarium or mapbox (Terrain-RGB). "
                   "Default: the values are heights")
-      .type_name("NAME")
       .one_of({"terrarium", "mapbox"});
-  command
-      .add_option("--variable", options.variable,
-                  "Name of the raster with heights in a file that contains several (netCDF, "
-                  "GeoPackage)")
-      .type_name("NAME");
+  command.add_option("--variable NAME", options.variable,
+                     "Name of the raster with heights in a file that contains several (netCDF, "
+                     "GeoPackage)");
 }
 
 RasterSource elevation_source(const std::string& path, const ElevationOptions& options) {

@@ -241,7 +241,10 @@ Option& Option::excludes(std::initializer_list<Option> others) {
 
 template <OptionValue T>
 Option CommandOptions::add_option(const std::string& names, T& value, const std::string& meaning) {
-  return Option(app_->add_option(names, value, meaning), app_, uses_);
+  const std::size_t space = names.find(' ');
+  CLI::Option* const option = app_->add_option(names.substr(0, space), value, meaning);
+  if (space != std::string::npos) option->type_name(names.substr(space + 1));
+  return Option(option, app_, uses_);
 }
 template Option CommandOptions::add_option(const std::string&, std::string&, const std::string&);
 template Option CommandOptions::add_option(const std::string&, int&, const std::string&);
@@ -344,9 +347,8 @@ void CommandLine::declare_files() const { declare_files_of(*app_, *uses_); }
 
 void add_run_options(CommandOptions& command, RunOptions& options, const std::string& unchanged) {
   command
-      .add_option("--threads", options.threads,
+      .add_option("--threads N", options.threads,
                   "Processor threads; 0, the default, takes all. Changes no " + unchanged)
-      .type_name("N")
       .range(0, 4096);
   command.add_flag("--quiet,-q", options.quiet, "No progress, no notes");
   command.add_flag("--json", options.json, "The result as JSON on standard output");

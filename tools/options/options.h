@@ -101,7 +101,8 @@ class CommandOptions {
       : app_(app), uses_(std::move(uses)) {}
 
   // Binds a value, which must outlive the command line; its present value is the default. Names:
-  // "--out", "--quiet,-q"; without dashes it is a positional argument: "SCENE".
+  // "--out", "--quiet,-q"; without dashes it is a positional argument: "SCENE". After a space the
+  // name of its value in the help: "--out DIR", "--size,-s PX".
   template <OptionValue T>
   Option add_option(const std::string& names, T& value, const std::string& meaning);
   Option add_flag(const std::string& names, bool& value, const std::string& meaning);

@@ -32,7 +32,7 @@ One<T> read_one(
     const std::string& line, Say say = [](Option) {}) {
   return test::read_options<One<T>>(
       [say](CommandOptions& command, One<T>& one) {
-        say(command.add_option("--x", one.value, "A value").type_name("X"));
+        say(command.add_option("--x X", one.value, "A value"));
         command.add_option("REST", one.rest, "Words");
       },
       line);
@@ -202,13 +202,8 @@ class Tree : public ::testing::Test {
   Tree() {
     line_.options().footer("Below all.");
     info_.add_option("FILE", file_, "A file").required();
-    paint_.add_option("--size,-s", size_, "Side in pixels")
-        .type_name("PX")
-        .show_default()
-        .range(256, 16384);
-    paint_.add_option("--season", season_, "Palette")
-        .type_name("NAME")
-        .one_of({"summer", "winter"});
+    paint_.add_option("--size,-s PX", size_, "Side in pixels").show_default().range(256, 16384);
+    paint_.add_option("--season NAME", season_, "Palette").one_of({"summer", "winter"});
     paint_.add_flag("--json", json_, "As JSON");
     paint_.footer("Paints.");
   }

@@ -374,15 +374,13 @@ std::function<int()> add_figure(CommandOptions& command) {
   const auto options = std::make_shared<FigureOptions>();
   add_scene_options(command, options->scene);
   command
-      .add_option("--out", options->out,
+      .add_option("--out DIR", options->out,
                   "Folder for sheet.png, each of its pictures, and index.html")
-      .type_name("DIR")
       .required()
       .files(FileUse::folder);
   command
-      .add_option("--width", options->width_px,
+      .add_option("--width N", options->width_px,
                   "Width of the picture in pixels, its height in proportion. Default: the scene's")
-      .type_name("N")
       .range(16, 20000);
   const Option making =
       command.add_flag("--making", options->making,

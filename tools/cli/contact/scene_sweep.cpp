@@ -279,9 +279,8 @@ std::function<int()> add_sweep(CommandOptions& command) {
   const auto options = std::make_shared<SweepOptions>();
   add_scene_options(command, options->scene);
   command
-      .add_option("--out", options->out,
+      .add_option("--out DIR", options->out,
                   "Folder for the pictures, sheet.png, index.html and report.json")
-      .type_name("DIR")
       .required()
       .files(FileUse::folder);
   command.add_flag("--draft", options->draft,

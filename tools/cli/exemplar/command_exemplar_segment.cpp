@@ -249,48 +249,42 @@ int run(const SegmentOptions& options) {
 
 Action add_exemplar_segment(CommandOptions& command) {
   const auto options = std::make_shared<SegmentOptions>();
-  command.add_option("PAINTING", options->painting, "A painting or a scan: PNG, TIFF or JPEG")
+  command
+      .add_option("PAINTING PICTURE", options->painting, "A painting or a scan: PNG, TIFF or JPEG")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::input);
   command
-      .add_option("--out", options->out,
+      .add_option("--out MASK", options->out,
                   "The mask: a .png whose numbers are classes, for `classes` of an [[exemplar]]")
       .required()
-      .type_name("MASK")
       .files(FileUse::writes);
   command
-      .add_option("--report", options->page,
+      .add_option("--report PAGE", options->page,
                   "Also writes a page (.html) to merge, split and name the groups with clicks, and "
                   "to save the mask")
-      .type_name("PAGE")
       .files(FileUse::page);
   command
-      .add_option("--groups", options->theta,
+      .add_option("--groups X", options->theta,
                   "Limit of the dissimilarity within a group, such as 1.1; a larger value makes "
                   "fewer groups. Default: by --max-groups")
-      .type_name("X")
       .range(0.0, 10.0);
   command
-      .add_option("--max-groups", options->max,
+      .add_option("--max-groups N", options->max,
                   "Number of groups; the most similar are joined. With --groups an upper limit. "
                   "Default: 60")
-      .type_name("N")
       .range(1, 254);
   command.add_flag("--numbers", options->numbers,
                    "Writes numbers of groups to the mask instead of classes, as `synthesize "
                    "--label` takes them");
   command
-      .add_option("--compare", options->compare,
+      .add_option("--compare MASK", options->compare,
                   "A mask drawn by hand, in flat colours or numbers: reports how well the groups "
                   "agree with it")
-      .type_name("MASK")
       .files(FileUse::input);
   command
-      .add_option("--names", options->names,
+      .add_option("--names FILE", options->names,
                   "What a person said that places show, as the page saves it. Default: the file "
                   "beside the painting that ends with .names.toml, if there is one")
-      .type_name("FILE")
       .files(FileUse::input);
   add_run_options(command, *options);
   command.footer(

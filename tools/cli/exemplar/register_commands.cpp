@@ -43,20 +43,17 @@ namespace belvedere::tools {
 
 void add_register_options(CommandOptions& command, RegisterOptions& options,
                           const std::string& pairs) {
-  command.add_option("PAINTING", options.painting, "A painted panorama or its scan")
+  command.add_option("PAINTING PICTURE", options.painting, "A painted panorama or its scan")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::input);
-  command.add_option("DEM", options.dems, "Elevation of the region that it shows")
+  command.add_option("DEM DEM", options.dems, "Elevation of the region that it shows")
       .required()
-      .type_name("DEM")
       .files(FileUse::input);
-  command.add_option("--pairs", options.pairs, pairs).required().type_name("PAIRS");
+  command.add_option("--pairs PAIRS", options.pairs, pairs).required();
   command
-      .add_option("--sigma", options.sigma_px,
+      .add_option("--sigma PX", options.sigma_px,
                   "How exactly pixels were clicked: standard deviation in pixels. Default: "
                   "estimated")
-      .type_name("PX")
       .range(0.1, 100.0);
   command
       .add_option("--projection", options.projection,
@@ -64,12 +61,11 @@ void add_register_options(CommandOptions& command, RegisterOptions& options,
       .one_of({"auto", "perspective", "cylindrical", "panini"});
   command.add_flag("--cropped", options.cropped,
                    "The painting was cropped on one side: its middle is not that of the view");
-  command.add_option("--crs", options.crs, "CRS of the elevation, where its files do not name it")
-      .type_name("CRS");
+  command.add_option("--crs CRS", options.crs,
+                     "CRS of the elevation, where its files do not name it");
   command
-      .add_option("--cell", options.cell_m,
+      .add_option("--cell M", options.cell_m,
                   "Side of the ground's cells in metres. Default: that of the data")
-      .type_name("M")
       .range(0.1, 10000.0);
   add_run_options(command, options);
 }
@@ -222,9 +218,8 @@ Action add_exemplar_pick(CommandOptions& command) {
       "is written at once");
   command.option("--pairs").files(FileUse::edits);
   command
-      .add_option("--names", options->names,
+      .add_option("--names FILE", options->names,
                   "Names of summits and other places: a .csv, GeoPackage, GeoJSON … as for labels")
-      .type_name("FILE")
       .files(FileUse::input);
   add_page_options(command, options->page);
   command.footer(
@@ -404,10 +399,9 @@ Action add_exemplar_register(CommandOptions& command) {
   command.option("--pairs").files(FileUse::input);
   command
       .add_option(
-          "--out", options->out,
+          "--out DIR", options->out,
           "Folder for registered.toml, trust.png, classes.png and the report; created if missing")
       .required()
-      .type_name("DIR")
       .files(FileUse::folder);
   command.add_flag("--pairs-only", options->pairs_only,
                    "Do not look for the ground's relief in the paint");

@@ -249,12 +249,12 @@ int run(const SwatchesOptions& options) {
 
 Action add_features_swatches(CommandOptions& command) {
   const auto options = std::make_shared<SwatchesOptions>();
-  command.add_option("--style", options->style, "classic, ski, or a .toml file")
-      .type_name("STYLE")
+  command.add_option("--style STYLE", options->style, "classic, ski, or a .toml file")
       .show_default();
-  command.add_option("--out", options->out, "Folder for a picture of each kind; created if missing")
+  command
+      .add_option("--out DIR", options->out,
+                  "Folder for a picture of each kind; created if missing")
       .required()
-      .type_name("DIR")
       .files(FileUse::folder);
   command.footer(
       "Paints each kind of a style as in the foreground of a sheet, summer left, winter right, at "

@@ -152,46 +152,40 @@ int run(const LayersApplyOptions& options) {
 
 Action add_layers_apply(CommandOptions& command) {
   const auto options = std::make_shared<LayersApplyOptions>();
-  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)")
+  command.add_option("LAYERS FILE", options->layers, "The layers: a .toml file (docs/layers.md)")
       .required()
-      .type_name("FILE")
       .files(FileUse::input);
   command
-      .add_option("--dem", options->dem, "The ground: a DEM; the results have its cells, in metres")
+      .add_option("--dem FILE", options->dem,
+                  "The ground: a DEM; the results have its cells, in metres")
       .required()
-      .type_name("FILE")
       .files(FileUse::input);
   add_elevation_options(command, options->elevation);
   command
       .add_option(
-          "--out", options->out,
+          "--out TIF", options->out,
           "The classes: a GeoTIFF of bytes, with a legend beside it, so that scenes can read it")
       .required()
-      .type_name("TIF")
       .files(FileUse::writes, classes_files);
   command
-      .add_option("--colour", options->colour,
+      .add_option("--colour TIF", options->colour,
                   "The colours of the layers, blended by their coverage: a GeoTIFF")
-      .type_name("TIF")
       .files(FileUse::writes);
   command
       .add_option(
-          "--shares", options->shares,
+          "--shares TIF", options->shares,
           "How much of each cell each layer covers: a GeoTIFF with a band for each, 255 is all")
-      .type_name("TIF")
       .files(FileUse::writes);
   add_ground_climate(command, options->climate);
   LayerDrawingParameters& drawing = options->apply.drawing;
-  command
-      .add_option("--sharpen", drawing.power,
-                  "How little classes mix where shares are divided: from 1, as the shares are, to "
-                  "4. Default: 2")
-      .type_name("POWER");
-  command
-      .add_option("--patches", drawing.spectrum,
-                  "Size of patches: from 0, speckled, to 4, large with smooth borders. Default: 0")
-      .type_name("SIZE");
-  command.add_option("--seed", options->apply.seed, "Random seed. Default: 1").type_name("N");
+  command.add_option(
+      "--sharpen POWER", drawing.power,
+      "How little classes mix where shares are divided: from 1, as the shares are, to "
+      "4. Default: 2");
+  command.add_option(
+      "--patches SIZE", drawing.spectrum,
+      "Size of patches: from 0, speckled, to 4, large with smooth borders. Default: 0");
+  command.add_option("--seed N", options->apply.seed, "Random seed. Default: 1");
   add_run_options(command, *options, "cell");
   command.footer(
       "Reports how much of the ground each class covers, and how much of it lies outside the range "

@@ -482,94 +482,73 @@ int run(const LayersFitOptions& options) {
 
 Action add_layers_fit(CommandOptions& command) {
   const auto options = std::make_shared<LayersFitOptions>();
-  command.add_option("--dem", options->from.dem, "The ground: a DEM")
+  command.add_option("--dem FILE", options->from.dem, "The ground: a DEM")
       .required()
-      .type_name("FILE")
       .files(FileUse::input);
   add_elevation_options(command, options->from.elevation);
   command
-      .add_option("--image", options->from.image,
+      .add_option("--image FILE", options->from.image,
                   "A satellite image of it: a GeoTIFF (the DEM is resampled to its cells), or PNG "
                   "or JPEG with one pixel per cell of the DEM")
-      .type_name("FILE")
       .files(FileUse::input);
   command
-      .add_option("--classes", options->from.classes, "Instead of a picture: a land-cover raster")
-      .type_name("FILE")
+      .add_option("--classes FILE", options->from.classes,
+                  "Instead of a picture: a land-cover raster")
       .files(FileUse::input);
+  command.add_option("--legend NAME", options->from.legend,
+                     "Meaning of its codes: a legend's name or file (docs/legends.md)");
   command
-      .add_option("--legend", options->from.legend,
-                  "Meaning of its codes: a legend's name or file (docs/legends.md)")
-      .type_name("NAME");
-  command
-      .add_option("--out", options->out,
+      .add_option("--out TOML", options->out,
                   "The layers: a .toml file of about ten KB, which no longer needs the picture")
       .required()
-      .type_name("TOML")
       .files(FileUse::writes);
   add_ground_climate(command, options->climate);
   command
-      .add_option("--mask", options->from.mask,
+      .add_option("--mask FILE", options->from.mask,
                   "Mask: cells above 0 are not learned from (fields, towns)")
-      .type_name("FILE")
       .files(FileUse::input);
   command
-      .add_option("--regions", options->from.regions,
+      .add_option("--regions FILE", options->from.regions,
                   "Which colours of the picture form one class, drawn by hand: a .toml file "
                   "(docs/layers_fit.md)")
-      .type_name("FILE")
       .files(FileUse::input);
   command
-      .add_option("--bands", options->from.bands,
+      .add_option("--bands N", options->from.bands,
                   "Bands of the image for red, green and blue, from 1, and for shortwave infrared, "
                   "which tells snow from clouds: R,G,B[,I]. Default: 1,2,3")
-      .list(',')
-      .type_name("N");
+      .list(',');
   command.add_flag("--haze", options->from.haze,
                    "Take the blue cast of the air out of a picture in natural colours");
+  command.add_option("--grey-hue DEG", options->from.grey_hue_deg,
+                     "Give greys a hue of their own, as first published, such as 300 for purple");
+  command.add_option("--snow-from M", options->from.snow_from_m,
+                     "Lowest altitude of snow: white below it is not learned from, m");
+  command.add_option(
+      "--functions HOW", options->functions,
+      "How functions are found: fitted by likelihood (the default), or histogram, as "
+      "first published");
+  command.add_option(
+      "--model NAME", options->model,
+      "product (the default): coverage is the product of functions; additive: shares "
+      "by their sum, finer, larger");
+  command.add_option("--smoothing SAMPLES", options->smoothing,
+                     "Blur of histograms, in 256ths of an input's range. Default: 2");
+  command.add_option(
+      "--roughness WEIGHT", options->roughness,
+      "Penalty on steps of fitted functions; larger is smoother. Default: 0.0006 for a "
+      "product, 0.002 for a sum");
   command
-      .add_option("--grey-hue", options->from.grey_hue_deg,
-                  "Give greys a hue of their own, as first published, such as 300 for purple")
-      .type_name("DEG");
-  command
-      .add_option("--snow-from", options->from.snow_from_m,
-                  "Lowest altitude of snow: white below it is not learned from, m")
-      .type_name("M");
-  command
-      .add_option("--functions", options->functions,
-                  "How functions are found: fitted by likelihood (the default), or histogram, as "
-                  "first published")
-      .type_name("HOW");
-  command
-      .add_option("--model", options->model,
-                  "product (the default): coverage is the product of functions; additive: shares "
-                  "by their sum, finer, larger")
-      .type_name("NAME");
-  command
-      .add_option("--smoothing", options->smoothing,
-                  "Blur of histograms, in 256ths of an input's range. Default: 2")
-      .type_name("SAMPLES");
-  command
-      .add_option("--roughness", options->roughness,
-                  "Penalty on steps of fitted functions; larger is smoother. Default: 0.0006 for a "
-                  "product, 0.002 for a sum")
-      .type_name("WEIGHT");
-  command
-      .add_option("--inputs", options->inputs,
+      .add_option("--inputs NAMES", options->inputs,
                   "Inputs of the functions, instead of those that suit the model: altitude,slope,… "
                   "(docs/layers.md)")
-      .list(',')
-      .type_name("NAMES");
+      .list(',');
   command
-      .add_option("--report", options->report,
+      .add_option("--report DIR", options->report,
                   "A folder for a page on the fit and how it does on ground not used for it; takes "
                   "a minute")
-      .type_name("DIR")
       .files(FileUse::folder);
-  command
-      .add_option("--threads", options->threads,
-                  "Processor threads; 0, the default, takes all. Changes no bit")
-      .type_name("N");
+  command.add_option("--threads N", options->threads,
+                     "Processor threads; 0, the default, takes all. Changes no bit");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.footer(
       "Finds clouds and their shadows, the sun and the classes of colours in the picture, and how "

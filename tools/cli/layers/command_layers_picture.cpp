@@ -74,30 +74,22 @@ int run(const LayersPictureOptions& options) {
 Action add_layers_picture(CommandOptions& command) {
   const auto options = std::make_shared<LayersPictureOptions>();
   LayerPictureParameters& picture = options->picture;
-  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)")
+  command.add_option("LAYERS FILE", options->layers, "The layers: a .toml file (docs/layers.md)")
       .required()
-      .type_name("FILE")
       .files(FileUse::input);
-  command.add_option("--dem", options->dem, "The ground: a DEM")
+  command.add_option("--dem FILE", options->dem, "The ground: a DEM")
       .required()
-      .type_name("FILE")
       .files(FileUse::input);
   add_elevation_options(command, options->elevation);
-  command.add_option("--out", options->out, "The picture: a GeoTIFF of three bands")
+  command.add_option("--out TIF", options->out, "The picture: a GeoTIFF of three bands")
       .required()
-      .type_name("TIF")
       .files(FileUse::writes);
-  command
-      .add_option("--finer", picture.finer,
-                  "Pixels per cell of the DEM, across and down; 1 to 16. Default: 4")
-      .type_name("N");
-  command
-      .add_option("--light-from", picture.light_from,
-                  "Direction the light comes from, degrees clockwise from north. Default: 315")
-      .type_name("DEG");
+  command.add_option("--finer N", picture.finer,
+                     "Pixels per cell of the DEM, across and down; 1 to 16. Default: 4");
+  command.add_option("--light-from DEG", picture.light_from,
+                     "Direction the light comes from, degrees clockwise from north. Default: 315");
   add_ground_climate(command, options->climate);
-  command.add_option("--seed", picture.seed, "Random seed of the layers' grain. Default: 1")
-      .type_name("N");
+  command.add_option("--seed N", picture.seed, "Random seed of the layers' grain. Default: 1");
   add_run_options(command, *options);
   command.footer(
       "The ground seen from above, finer than the DEM: a smooth surface through its cells, with "

@@ -28,44 +28,36 @@ std::optional<RasterSource> monthly(std::string& file) {
 
 void add_ground_climate(CommandOptions& command, GroundClimateOptions& options) {
   command
-      .add_option("--stations", options.stations,
+      .add_option("--stations FILE", options.stations,
                   "Weather stations, for temperature and rain: CSV, points or netCDF "
                   "(docs/climate.md). Default: the climate of the place")
-      .type_name("FILE")
       .files(FileUse::input);
   command
       .add_option(
-          "--temperature", options.files.temperature,
+          "--temperature FILE", options.files.temperature,
           "Alternative: annual mean temperature, °C, a raster of one band; 12 bands: monthly means")
-      .type_name("FILE")
       .files(FileUse::input);
   command
-      .add_option("--rain", options.files.rain,
+      .add_option("--rain FILE", options.files.rain,
                   "Alternative: annual precipitation, mm, a raster of one band; 12 bands: monthly")
-      .type_name("FILE")
       .files(FileUse::input);
   command
       .add_option(
-          "--radiation", options.files.radiation,
+          "--radiation FILE", options.files.radiation,
           "Potential direct radiation of the year, instead of the computed one, MJ/m²: a raster")
-      .type_name("FILE")
       .files(FileUse::input);
   command
-      .add_option("--sky-view", options.files.sky_view,
+      .add_option("--sky-view FILE", options.files.sky_view,
                   "Sky view factor, 0 … 1, instead of the computed one: a raster")
-      .type_name("FILE")
       .files(FileUse::input);
   command
-      .add_option("--sunshine", options.sunshine,
+      .add_option("--sunshine SHARES", options.sunshine,
                   "Clouds in the computed radiation: share of the day with sunshine, 0 … 1, of all "
                   "months or of January,…,December. Default: 1, a clear sky")
-      .list(',')
-      .type_name("SHARES");
-  command
-      .add_option("--latitude", options.latitude_deg,
-                  "Latitude, for a DEM without a coordinate system whose sun or climate is "
-                  "computed, degrees")
-      .type_name("DEG");
+      .list(',');
+  command.add_option("--latitude DEG", options.latitude_deg,
+                     "Latitude, for a DEM without a coordinate system whose sun or climate is "
+                     "computed, degrees");
 }
 
 Dem read_layer_dem(const std::string& path, const ElevationOptions& options, Progress& progress) {

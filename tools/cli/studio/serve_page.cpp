@@ -25,8 +25,7 @@ void open_browser(const std::string& address) {
 }  // namespace
 
 void add_page_options(CommandOptions& command, PageOptions& options) {
-  command.add_option("--port", options.port, "Port of this machine; 0: any that is free")
-      .type_name("N")
+  command.add_option("--port N", options.port, "Port of this machine; 0: any that is free")
       .range(0, 65535);
   command.add_flag("--headless", options.headless,
                    "No browser; the address is printed as JSON, for programs");

@@ -110,29 +110,24 @@ int run(const TextureCorrectOptions& options) {
 
 Action add_texture_correct(CommandOptions& command) {
   const auto options = std::make_shared<TextureCorrectOptions>();
-  command.add_option("SOURCE", options->source, "The picture to correct: PNG, TIFF or JPEG")
+  command.add_option("SOURCE PICTURE", options->source, "The picture to correct: PNG, TIFF or JPEG")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::input);
-  command.add_option("--to", options->target, "The picture whose colours it takes")
+  command.add_option("--to PICTURE", options->target, "The picture whose colours it takes")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::input);
-  command.add_option("--out", options->out, "The corrected picture: .png or .tif")
+  command.add_option("--out PICTURE", options->out, "The corrected picture: .png or .tif")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::writes);
   command
-      .add_option("--regions", options->regions,
+      .add_option("--regions N", options->regions,
                   "Number of regions of similar colour that are paired. Default: 3")
-      .type_name("N")
       .range(1, 5);
   add_run_options(command, *options);
   command
-      .add_option("--report", options->report,
+      .add_option("--report FOLDER", options->report,
                   "Writes a page with the picture before and after beside the other, and the "
                   "distances of their colours")
-      .type_name("FOLDER")
       .files(FileUse::folder);
   command.footer(
       "Pairs regions of similar colour of both pictures, and gives each the distributions of hue, "

@@ -187,48 +187,42 @@ int run(const TextureErodeOptions& options) {
 
 Action add_texture_erode(CommandOptions& command) {
   const auto options = std::make_shared<TextureErodeOptions>();
-  command.add_option("MASK", options->mask, "A grey picture: pixels other than 0 are eroded")
+  command
+      .add_option("MASK PICTURE", options->mask, "A grey picture: pixels other than 0 are eroded")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::input);
-  command.add_option("--out", options->out, "Folder of the series: MASK_01.png, MASK_02.png …")
+  command
+      .add_option("--out FOLDER", options->out, "Folder of the series: MASK_01.png, MASK_02.png …")
       .required()
-      .type_name("FOLDER")
       .files(FileUse::folder);
-  command.add_option("--steps", options->erosion.levels, "Number of masks. Default: 8")
-      .range(1, 99)
-      .type_name("N");
+  command.add_option("--steps N", options->erosion.levels, "Number of masks. Default: 8")
+      .range(1, 99);
   command
-      .add_option("--step-px", options->erosion.step,
+      .add_option("--step-px PX", options->erosion.step,
                   "How far a straight border retreats per step, in pixels. Default: 8")
-      .range(0.5, 1000.0)
-      .type_name("PX");
+      .range(0.5, 1000.0);
   command
-      .add_option("--label", options->label,
+      .add_option("--label NUMBER", options->label,
                   "For a map of classes: the number of the class that retreats; each pixel it "
                   "leaves takes the number that reached it first")
-      .range(0, 255)
-      .type_name("NUMBER");
+      .range(0, 255);
   command
-      .add_option("--over", options->over,
+      .add_option("--over PICTURE", options->over,
                   "Instead: MASK is a crop of a weathered texture; its cracks are learnt and laid "
                   "over this picture, step by step more\n"
                   "of them: PICTURE_01.png, PICTURE_02.png …")
-      .type_name("PICTURE")
       .files(FileUse::input);
   command
       .add_option(
-          "--darkest", options->darkest,
+          "--darkest SHARE", options->darkest,
           "With --over: share of the crop that are cracks, its darkest pixels. Default: 0.1")
-      .range(0.01, 0.5)
-      .type_name("SHARE");
-  command.add_option("--keep", options->keep, "Numbers that do not advance, such as water")
-      .range(0, 255)
-      .type_name("NUMBER");
-  command.add_option("--seed", options->erosion.seed, "Random seed of the borders. Default: 1")
-      .type_name("N");
-  command.add_option("--report", options->report, "Writes a page with the mask beside the steps")
-      .type_name("FOLDER")
+      .range(0.01, 0.5);
+  command.add_option("--keep NUMBER", options->keep, "Numbers that do not advance, such as water")
+      .range(0, 255);
+  command.add_option("--seed N", options->erosion.seed, "Random seed of the borders. Default: 1");
+  command
+      .add_option("--report FOLDER", options->report,
+                  "Writes a page with the mask beside the steps")
       .files(FileUse::folder);
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Print the result as JSON");

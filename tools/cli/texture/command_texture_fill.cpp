@@ -214,23 +214,17 @@ int run_plant(const TextureFillOptions& options) {
 // The options that all three have in common. `mask`: the name of the mask's option.
 void add_common(CommandOptions& command, TextureFillOptions& options, const std::string& mask,
                 const std::string& meaning) {
-  command.add_option("PICTURE", options.picture, "A painting or a scan")
+  command.add_option("PICTURE PICTURE", options.picture, "A painting or a scan")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::input);
-  command.add_option(mask, options.hole, meaning)
+  command.add_option(mask + " PICTURE", options.hole, meaning).required().files(FileUse::input);
+  command.add_option("--out PICTURE", options.out, "The picture: .png or .tif")
       .required()
-      .type_name("PICTURE")
-      .files(FileUse::input);
-  command.add_option("--out", options.out, "The picture: .png or .tif")
-      .required()
-      .type_name("PICTURE")
       .files(FileUse::writes);
   add_run_options(command, options);
   command
-      .add_option("--report", options.report,
+      .add_option("--report FOLDER", options.report,
                   "Writes a page with the part that changed, before and after")
-      .type_name("FOLDER")
       .files(FileUse::folder);
 }
 
@@ -241,12 +235,11 @@ Action add_texture_fill(CommandOptions& command) {
   add_common(command, *options, "--hole",
              "Mask of the pixels to fill: a grey picture of its size, 0 is kept");
   command
-      .add_option("--model", options->model,
+      .add_option("--model MODEL", options->model,
                   "Model of the fill, written by `belvedere texture learn`")
       .required()
-      .type_name("MODEL")
       .files(FileUse::input);
-  command.add_option("--seed", options->seed, "Random seed. Default: 1").type_name("N");
+  command.add_option("--seed N", options->seed, "Random seed. Default: 1");
   command.footer(
       "Lets a wood grow over a clearing. Nothing outside the mask changes; a .tif keeps 16 bits. "
       "`belvedere texture remove` learns\n"
@@ -276,21 +269,19 @@ Action add_texture_plant(CommandOptions& command) {
   add_common(command, *options, "--mask",
              "Mask of what is planted: a grey picture of its size, 0 is kept");
   command
-      .add_option("--from", options->crop,
+      .add_option("--from PICTURE", options->crop,
                   "A crop of the texture, from another picture or another light, 48 pixels per "
                   "side or more")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::input);
   command
-      .add_option("--like", options->like,
+      .add_option("--like PICTURE", options->like,
                   "Mask of the part of PICTURE whose colours the texture takes, and joins. "
                   "Default: the quarter of the ground around\n"
                   "the mask that is nearest in colour to the crop, in whatever light")
-      .type_name("PICTURE")
       .files(FileUse::input);
   command.add_flag("--as-it-is", options->as_it_is, "Keeps the crop's own colours");
-  command.add_option("--seed", options->seed, "Random seed. Default: 1").type_name("N");
+  command.add_option("--seed N", options->seed, "Random seed. Default: 1");
   command.footer(
       "Plants a wood, a meadow, a scree: learns the crop in the light of the picture (see "
       "`belvedere texture correct`) and fills the\n"

@@ -185,49 +185,42 @@ int run(const TextureLearnOptions& options) {
 Action add_texture_learn(CommandOptions& command) {
   const auto options = std::make_shared<TextureLearnOptions>();
   command
-      .add_option("CROP", options->crop,
+      .add_option("CROP PICTURE", options->crop,
                   "A piece of a painting that shows one texture, 48 pixels per side or more")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::input);
-  command.add_option("--out", options->out, "The model: a text file of about 1.5 KB")
+  command.add_option("--out MODEL", options->out, "The model: a text file of about 1.5 KB")
       .required()
-      .type_name("MODEL")
       .files(FileUse::writes);
   command
-      .add_option("--mask", options->mask,
+      .add_option("--mask PICTURE", options->mask,
                   "Mask of the texture in the crop: a grey picture of its size, 0 is left out")
-      .type_name("PICTURE")
       .files(FileUse::input);
   command
-      .add_option("--types", options->learn.types,
+      .add_option("--types N", options->learn.types,
                   "Maximum number of statistics in the model, 16 to 200. Default: 40")
-      .range(16, 200)
-      .type_name("N");
+      .range(16, 200);
   command
-      .add_option("--light", options->light,
+      .add_option("--light HALF", options->light,
                   "Learns only the lighter half of the crop (lit) or the darker half (shaded): "
                   "faces of rock and snow are light and shade, and\n"
                   "need a model for each. Default: all of it")
-      .one_of({"lit", "shaded"})
-      .type_name("HALF");
+      .one_of({"lit", "shaded"});
   add_begin_options(
       command, options->begin,
       "Initial noise, which determines the shape of the dabs: white, streaks (strokes along a\n"
       "direction) or discs (crowns). Default: the noise that comes closest to the crop");
   command
-      .add_option("--method", options->method,
+      .add_option("--method METHOD", options->method,
                   "flow, or paper: the published method, which samples one level pixel by pixel. "
                   "For comparison, on\n"
                   "crops up to 256 pixels per side; it takes minutes and ignores pairs farther "
                   "apart than 12 pixels. Default: flow")
-      .one_of({"flow", "paper"})
-      .type_name("METHOD");
+      .one_of({"flow", "paper"});
   add_run_options(command, *options, "bit");
   command
-      .add_option("--report", options->report,
+      .add_option("--report FOLDER", options->report,
                   "Writes a page with the crop beside the texture, and all figures")
-      .type_name("FOLDER")
       .files(FileUse::folder);
   command.footer(
       "The model describes only how neighbouring pixels differ, near and far: meadow, distant "

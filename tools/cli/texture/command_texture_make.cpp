@@ -88,31 +88,26 @@ int run(const TextureMakeOptions& options) {
 
 Action add_texture_make(CommandOptions& command) {
   const auto options = std::make_shared<TextureMakeOptions>();
-  command.add_option("MODEL", options->model, "A model written by `belvedere texture learn`")
+  command.add_option("MODEL MODEL", options->model, "A model written by `belvedere texture learn`")
       .required()
-      .type_name("MODEL")
       .files(FileUse::input);
-  command.add_option("--out", options->out, "The picture: .png or .tif")
+  command.add_option("--out PICTURE", options->out, "The picture: .png or .tif")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::writes);
-  command.add_option("--size", options->size, "Width and height, in pixels")
+  command.add_option("--size WxH", options->size, "Width and height, in pixels")
       .list('x', 2)
-      .range(1, 1 << 20)
-      .type_name("WxH");
+      .range(1, 1 << 20);
   command
-      .add_option("--window", options->window,
+      .add_option("--window X,Y,W,H", options->window,
                   "Instead: left, top, width and height of a window of an unbounded texture. "
                   "Overlapping windows have the same pixels")
       .list(',', 4)
-      .range(-(1 << 28), 1 << 28)
-      .type_name("X,Y,W,H");
-  command.add_option("--seed", options->seed, "Random seed. Default: 1").type_name("N");
+      .range(-(1 << 28), 1 << 28);
+  command.add_option("--seed N", options->seed, "Random seed. Default: 1");
   add_run_options(command, *options);
   command
-      .add_option("--report", options->report,
+      .add_option("--report FOLDER", options->report,
                   "Writes a page with the texture and a description of its model")
-      .type_name("FOLDER")
       .files(FileUse::folder);
   command.footer(
       "Nothing is copied and nothing repeats, at any size.\n"

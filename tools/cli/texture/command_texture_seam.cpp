@@ -133,31 +133,26 @@ int run(const TextureSeamOptions& options) {
 Action add_texture_seam(CommandOptions& command) {
   const auto options = std::make_shared<TextureSeamOptions>();
   command
-      .add_option("PICTURE", options->pictures,
+      .add_option("PICTURE PICTURE", options->pictures,
                   "Two or more pictures of one height, from left to right")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::input);
-  command.add_option("--out", options->out, "The picture: .png or .tif")
+  command.add_option("--out PICTURE", options->out, "The picture: .png or .tif")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::writes);
   command.add_flag("--down", options->down,
                    "From top to bottom instead; the pictures then have one width");
   command
       .add_option(
-          "--band-px", options->seams.band_px,
+          "--band-px PX", options->seams.band_px,
           "How far from a seam pixels may change. Default: by the step at the seam, 24 to 96")
-      .range(8, 256)
-      .type_name("PX");
-  command.add_option("--seed", options->seams.seed, "Random seed of the border. Default: 1")
-      .type_name("N");
+      .range(8, 256);
+  command.add_option("--seed N", options->seams.seed, "Random seed of the border. Default: 1");
   add_run_options(command, *options);
   command
-      .add_option("--report", options->report,
+      .add_option("--report FOLDER", options->report,
                   "Writes a page with the pictures before and after joining, and the visibility of "
                   "the seams")
-      .type_name("FOLDER")
       .files(FileUse::folder);
   command.footer(
       "Each picture is extended over the seam by its own texture model, up to a ragged border that "

@@ -248,43 +248,37 @@ int run(const CompositeLearnOptions& options) {
 Action add_composite_learn(CommandOptions& command) {
   const auto options = std::make_shared<CompositeLearnOptions>();
   command
-      .add_option("CROP", options->crop,
+      .add_option("CROP PICTURE", options->crop,
                   "A painting, or a part of one, that shows several textures")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::input);
   command
-      .add_option("--labels", options->labels,
+      .add_option("--labels PICTURE", options->labels,
                   "Label image of its size in 2 to 16 flat colours, or of grey numbers; number 255 "
                   "is left out.\n"
                   "Each colour is one texture, 48 pixels per side or more. Default: segments that "
                   "the program finds")
-      .type_name("PICTURE")
       .files(FileUse::input);
   command
-      .add_option("--found", options->found,
+      .add_option("--found PICTURE", options->found,
                   "Without --labels: also writes the labels found, to be edited and passed to it")
-      .type_name("PICTURE")
       .files(FileUse::writes)
       .excludes({command.option("--labels")});
-  command.add_option("--out", options->out, "The model: a text file of about 15 KB")
+  command.add_option("--out COMPOSITE", options->out, "The model: a text file of about 15 KB")
       .required()
-      .type_name("COMPOSITE")
       .files(FileUse::writes);
   command
-      .add_option("--types", options->composite.learn.types,
+      .add_option("--types N", options->composite.learn.types,
                   "Maximum number of statistics per texture, 16 to 200. Default: 40")
-      .range(16, 200)
-      .type_name("N");
+      .range(16, 200);
   add_begin_options(command, options->begin,
                     "Initial noise of all textures, which determines the shape of their dabs: "
                     "white, streaks or discs.\n"
                     "Default: for each the noise that comes closest to the crop");
   add_run_options(command, *options, "bit");
   command
-      .add_option("--report", options->report,
+      .add_option("--report FOLDER", options->report,
                   "Writes a page with the crop beside the composite, and all figures")
-      .type_name("FOLDER")
       .files(FileUse::folder);
   command.footer(
       "One texture model of a picture with sky above water beside rock would mix them all. A "
@@ -412,45 +406,42 @@ int run_make(const CompositeMakeOptions& options) {
 
 Action add_composite_make(CommandOptions& command) {
   const auto options = std::make_shared<CompositeMakeOptions>();
-  command.add_option("COMPOSITE", options->model, "A model written by `belvedere composite learn`")
+  command
+      .add_option("COMPOSITE COMPOSITE", options->model,
+                  "A model written by `belvedere composite learn`")
       .required()
-      .type_name("COMPOSITE")
       .files(FileUse::input);
-  command.add_option("--out", options->out, "The picture: .png or .tif")
+  command.add_option("--out PICTURE", options->out, "The picture: .png or .tif")
       .required()
-      .type_name("PICTURE")
       .files(FileUse::writes);
   command
-      .add_option("--size", options->size,
+      .add_option("--size WxH", options->size,
                   "Width and height, in pixels; the label map is synthesized too")
       .list('x', 2)
-      .range(1, 1 << 20)
-      .type_name("WxH");
+      .range(1, 1 << 20);
   command
-      .add_option("--labels", options->labels,
+      .add_option("--labels PICTURE", options->labels,
                   "Instead: a label map, drawn in the colours (or numbers) of the crop's labels")
-      .type_name("PICTURE")
       .files(FileUse::input);
   command
-      .add_option("--window", options->window,
+      .add_option("--window X,Y,W,H", options->window,
                   "Only this part of the map: column, row, width and height. Windows fit together "
                   "to the pixel, in any order; they are\n"
                   "parts of the window of the whole map, which differs slightly from a picture "
                   "without --window")
-      .list(',', 4)
-      .type_name("X,Y,W,H");
+      .list(',', 4);
   command.add_flag("--strips", options->strips,
                    "Makes the picture as windows do and writes it in strips of 512 rows, in little "
                    "memory. Default: over 64 Mpixels");
   command
-      .add_option("--map", options->map,
+      .add_option("--map PICTURE", options->map,
                   "Also writes the labels in their colours, to be edited and passed to --labels")
-      .type_name("PICTURE")
       .files(FileUse::writes);
-  command.add_option("--seed", options->seed, "Random seed. Default: 1").type_name("N");
+  command.add_option("--seed N", options->seed, "Random seed. Default: 1");
   add_run_options(command, *options);
-  command.add_option("--report", options->report, "Writes a page with the labels beside the result")
-      .type_name("FOLDER")
+  command
+      .add_option("--report FOLDER", options->report,
+                  "Writes a page with the labels beside the result")
       .files(FileUse::folder);
   command.footer(
       "  belvedere composite make coast.composite --size 1600x1000 --map labels.png --out "

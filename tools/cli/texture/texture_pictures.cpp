@@ -230,14 +230,11 @@ void write_label_picture(const std::string& path, const Grid<std::uint8_t>& labe
 }
 
 void add_begin_options(CommandOptions& command, BeginOptions& options, const std::string& meaning) {
-  command.add_option("--begin", options.kind, meaning)
-      .one_of({"white", "streaks", "discs"})
-      .type_name("KIND");
+  command.add_option("--begin KIND", options.kind, meaning).one_of({"white", "streaks", "discs"});
   command
-      .add_option("--begin-px", options.px,
+      .add_option("--begin-px PX", options.px,
                   "With --begin: half length of streaks, radius of discs. Default: 8")
-      .range(1.0, 256.0)
-      .type_name("PX");
+      .range(1.0, 256.0);
 }
 
 TextureBegin begin_of(const BeginOptions& options) {
