@@ -27,40 +27,6 @@ constexpr double min_map_for_wind_m = 40000.0;
 constexpr double min_lapse = -5.0;
 constexpr double largest_lapse = 12.0;
 
-void add(PlaceClimate& sum, const PlaceClimate& other, double weight) {
-  for (std::size_t m = 0; m < months; ++m) {
-    sum.sea_level_c[m] += weight * other.sea_level_c[m];
-    sum.lapse_k_per_km[m] += weight * other.lapse_k_per_km[m];
-  }
-  for (std::size_t km = 0; km < sum.rain_mm_at_km.size(); ++km)
-    sum.rain_mm_at_km[km] += weight * other.rain_mm_at_km[km];
-  sum.summer_share += weight * other.summer_share;
-  sum.gathers += weight * other.gathers;
-  sum.dry_air += weight * other.dry_air;
-  sum.sheltered += weight * other.sheltered;
-}
-
-// The two neighbours of a position on a line of `count` values, and the weight of the second.
-struct Neighbours {
-  int first, second;
-  double share;
-};
-Neighbours neighbours_at(double at, int count) {
-  const double inside = std::clamp(at, 0.0, static_cast<double>(count - 1));
-  const int first = std::min(static_cast<int>(inside), std::max(0, count - 2));
-  return {first, std::min(first + 1, count - 1), inside - first};
-}
-
-double sample(const Grid<float>& grid, double column, double row) {
-  const Neighbours x = neighbours_at(column, grid.width());
-  const Neighbours y = neighbours_at(row, grid.height());
-  const auto line = [&](int at) {
-    return static_cast<double>(grid(x.first, at)) * (1.0 - x.share) +
-           static_cast<double>(grid(x.second, at)) * x.share;
-  };
-  return line(y.first) * (1.0 - y.share) + line(y.second) * y.share;
-}
-
 // State while a climate is made: the map and the parts of the climate.
 class Maker {
  public:
@@ -481,9 +447,7 @@ class Maker {
     if (!(cell.x >= -0.5 && cell.y >= -0.5 && cell.x <= dem_.width() - 0.5 &&
           cell.y <= dem_.height() - 0.5))
       return 1.0;
-    const glm::dvec2 coarse =
-        (cell + 0.5) / static_cast<double>(climate_.coarse_cells) - glm::dvec2(0.5);
-    return sample(share, coarse.x, coarse.y);
+    return climate_.on_coarse_grid(share, cell.x, cell.y);
   }
 
   // The rain of dry places was measured behind their ranges: there the wind acts no more.
@@ -513,40 +477,6 @@ class Maker {
 };
 
 }  // namespace
-
-PlaceClimate Climate::at(double column, double row) const {
-  const Neighbours x =
-      neighbours_at(position.width > 1 ? column / (position.width - 1) * (nodes.width() - 1) : 0.0,
-                    nodes.width());
-  const Neighbours y =
-      neighbours_at(position.height > 1 ? row / (position.height - 1) * (nodes.height() - 1) : 0.0,
-                    nodes.height());
-  PlaceClimate here{.sea_level_c = {},
-                    .lapse_k_per_km = {},
-                    .rain_mm_at_km = {},
-                    .summer_share = 0.0,
-                    .gathers = 0.0};
-  add(here, nodes(x.first, y.first), (1.0 - x.share) * (1.0 - y.share));
-  add(here, nodes(x.second, y.first), x.share * (1.0 - y.share));
-  add(here, nodes(x.first, y.second), (1.0 - x.share) * y.share);
-  add(here, nodes(x.second, y.second), x.share * y.share);
-  const double coarse_column = (column + 0.5) / coarse_cells - 0.5;
-  const double coarse_row = (row + 0.5) / coarse_cells - 0.5;
-  for (std::size_t m = 0; m < months; ++m)
-    if (!warmer_k[m].empty()) here.sea_level_c[m] += sample(warmer_k[m], coarse_column, coarse_row);
-  if (!rain_share.empty()) {
-    const double share = sample(rain_share, coarse_column, coarse_row);
-    for (double& mm : here.rain_mm_at_km) mm *= share;
-  }
-  return here;
-}
-
-double usual_wind_from_deg(double latitude_deg) {
-  constexpr double trades_to_deg = 30.0;
-  constexpr double westerlies_to_deg = 65.0;
-  const double away = std::abs(latitude_deg);
-  return away >= trades_to_deg && away < westerlies_to_deg ? 270.0 : 90.0;
-}
 
 Climate make_climate(const Dem& dem, const ClimateParameters& parameters,
                      const DefaultClimate& fallback, Progress& progress) {

@@ -54,6 +54,8 @@ struct Climate {
 
   // At a position in cells of the map, which may be fractional.
   PlaceClimate at(double column, double row) const;
+  // A grid of about a kilometre at such a position.
+  double on_coarse_grid(const Grid<float>& grid, double column, double row) const;
 };
 
 // Uses the best source for temperature and for rain: stations, else a raster, else the default.

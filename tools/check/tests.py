@@ -17,6 +17,7 @@ tested_by = {
         ("tools/studio/studio_pictures", "each answer where it is asked for: TellsWhatIsUnderThePointer, HasAMap, JudgesTheView …"),
     "tools/cli/studio/serve_page":
         ("tools/cli/studio/command_studio", "ServesTheSceneUntilItIsInterrupted; of the other page: command_exemplar_pick_test"),
+    "terrain/climate/climate_at": ("terrain/climate/climate", "a climate's value at a place, as the map was made"),
     "terrain/cover/class_rules_inputs": ("terrain/cover/class_rules", "the ground that rules ask for is tested by the rules that ask"),
     "terrain/cover/rule_expression_run":
         ("terrain/cover/rule_expression", "runs what rule_expression.cpp reads: values are tested as written"),
