@@ -5,6 +5,7 @@
 
 #include "base/instruction_set.h"
 #include "renderer/image/provenance.h"
+#include "terrain/io/raster.h"
 
 namespace belvedere {
 namespace {
@@ -48,6 +49,14 @@ CacheKey make_cache_key(CachedProduct product, const CacheKeyText& made_from, st
   const CacheKeyText format = CacheKeyText().add("format", info.format);
   return {std::string(info.name), std::move(subject),
           program_text().str() + format.str() + made_from.str()};
+}
+
+void add_transform(CacheKeyText& key, const GeoTransform& transform) {
+  const auto& [origin_x, origin_y, cell_x, cell_y] = transform;
+  key.add("origin_x", origin_x)
+      .add("origin_y", origin_y)
+      .add("cell_x", cell_x)
+      .add("cell_y", cell_y);
 }
 
 std::string subject_of(const LoadedScene& scene) {

@@ -13,6 +13,8 @@
 
 namespace belvedere {
 
+struct GeoTransform;
+
 // The table of cached products. A product is worth a row if making it takes much longer than
 // reading it.
 enum class CachedProduct {
@@ -38,6 +40,9 @@ std::span<const CachedProductInfo> cached_products();
 // processor's vector instructions and the hash of its own file, so a changed program does not find
 // the products of another. subject: shown to users, the scene.
 CacheKey make_cache_key(CachedProduct product, const CacheKeyText& made_from, std::string subject);
+
+// Adds a grid's place to the key of what is made on it.
+void add_transform(CacheKeyText& key, const GeoTransform& transform);
 
 // Name of a scene's products in lists of the cache.
 std::string subject_of(const LoadedScene& scene);

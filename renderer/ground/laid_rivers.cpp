@@ -39,12 +39,8 @@ constexpr double max_grown = 3.0;
 // Ground values that rivers depend on: flow and altitude.
 void add_ground(CacheKeyText& key, const Dem& dem) {
   const auto& [altitude_m, filled, transform, crs, entries, halved] = dem;
-  const auto& [origin_x, origin_y, cell_x, cell_y] = transform;
-  key.add("altitude_m", altitude_m)
-      .add("origin_x", origin_x)
-      .add("origin_y", origin_y)
-      .add("cell_x", cell_x)
-      .add("cell_y", cell_y);
+  key.add("altitude_m", altitude_m);
+  add_transform(key, transform);
   for (const auto& [x, y, km2] : entries) key.add("entry_x", x).add("entry_y", y).add("km2", km2);
 }
 

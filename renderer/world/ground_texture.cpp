@@ -13,13 +13,22 @@
 #include "base/parallel.h"
 #include "base/pixel_rect.h"
 #include "base/text/parse_number.h"
+#include "renderer/ground/cached_products.h"
 
 namespace belvedere {
+
+void each_field(auto& bytes, FieldsOf<Raster<GroundColour>> auto& raster) {
+  auto& [cells, transform, crs] = raster;
+  bytes(cells, transform, crs);
+}
+
 namespace {
 
 constexpr double max_texels = 1 << 30;
 constexpr double max_lattice = 1 << 28;  // from the origin of the CRS, in texels
-constexpr std::uint8_t nobody = 255;     // the label of classes without one
+// Of the polish, which takes most of the time: dabs on the ground are seen from afar.
+constexpr int ground_sweeps = 8;
+constexpr std::uint8_t nobody = 255;  // the label of classes without one
 
 // The texels that cover a frame; rows count southwards.
 PixelRect texels_of(const RasterFrame& frame, double texel_m) {
@@ -108,6 +117,35 @@ Raster<GroundColour> paint_ground_texture(const CompositeModel& composite,
         }
     }
   return out;
+}
+
+Raster<GroundColour> make_scene_texture(const LoadedScene& loaded, const LandCover& cover,
+                                        const Dem& dem, Progress& progress, const Cache& cache) {
+  const SceneLandCover& settings = loaded.scene.land_cover;
+  const std::string file = find_scene_file(loaded, settings.texture);
+  const CompositeModel composite = read_composite(file);
+  const std::vector<LandCoverClass> classes = classes_of_labels(composite, file);
+  const RasterFrame frame{dem.transform, dem.width(), dem.height(), dem.crs};
+  GroundTextureParameters parameters;
+  parameters.texel_m = settings.texture_m > 0.0 ? settings.texture_m : dem.cell_m();
+  parameters.make.seed = loaded.scene.seed;
+  parameters.make.sweeps = ground_sweeps;
+  const auto key = [&] {
+    CacheKeyText text;
+    text.add("composite", composite_text(composite))
+        .add("texel_m", parameters.texel_m)
+        .add("seed", parameters.make.seed)
+        .add("sweeps", parameters.make.sweeps)
+        .add("classes", cover.classes.cells)
+        .add("width", frame.width)
+        .add("height", frame.height)
+        .add("crs", frame.crs);
+    for (const GeoTransform& t : {cover.classes.transform, frame.transform}) add_transform(text, t);
+    return make_cache_key(CachedProduct::ground_texture, text, subject_of(loaded));
+  };
+  return cached<Raster<GroundColour>>(cache, key, progress, [&](Progress& watcher) {
+    return paint_ground_texture(composite, classes, cover, frame, parameters, watcher);
+  });
 }
 
 }  // namespace belvedere

@@ -3,9 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "base/cache/cache.h"
 #include "base/land_cover_class.h"
 #include "base/progress.h"
+#include "renderer/scene/scene_file.h"
 #include "terrain/cover/land_cover.h"
+#include "terrain/io/dem.h"
 #include "terrain/io/raster_io.h"
 #include "texture/composite/make_composite.h"
 
@@ -31,5 +34,10 @@ Raster<GroundColour> paint_ground_texture(const CompositeModel& composite,
                                           const LandCover& cover, const RasterFrame& frame,
                                           const GroundTextureParameters& parameters,
                                           Progress& progress = silent_progress());
+
+// The composite of a scene on its ground. Windows have none of their own: its texels are as fine
+// for the whole.
+Raster<GroundColour> make_scene_texture(const LoadedScene& loaded, const LandCover& cover,
+                                        const Dem& dem, Progress& progress, const Cache& cache);
 
 }  // namespace belvedere

@@ -270,13 +270,9 @@ void add_sea(CacheKeyText& key, const SeaParameters& sea) {
 
 void add_dem(CacheKeyText& key, const Dem& dem) {
   const auto& [altitude_m, filled, transform, crs, entries, halved] = dem;
-  const auto& [origin_x, origin_y, cell_x, cell_y] = transform;
   key.add("halved", halved).add("altitude_m", altitude_m).add("filled", filled).add("crs", crs);
   for (const auto& [x, y, km2] : entries) key.add("entry_x", x).add("entry_y", y).add("km2", km2);
-  key.add("origin_x", origin_x)
-      .add("origin_y", origin_y)
-      .add("cell_x", cell_x)
-      .add("cell_y", cell_y);
+  add_transform(key, transform);
 }
 
 namespace {

@@ -37,11 +37,6 @@ void each_field(auto& bytes, FieldsOf<CoverRiver> auto& centreline) {
   bytes(positions, half_width_m, painted_as, rank, kind);
 }
 
-void each_field(auto& bytes, FieldsOf<Raster<GroundColour>> auto& raster) {
-  auto& [cells, transform, crs] = raster;
-  bytes(cells, transform, crs);
-}
-
 void each_field(auto& bytes, FieldsOf<LandCover> auto& cover) {
   auto& [classes, colours, relief, map, inferred, below, inferred_rivers] =
       cover;  // a map is applied over the cached result
@@ -91,13 +86,7 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules,
       .add("temperature_c", temperature_c)
       .add("rain_mm", rain_mm);
   key.add("sun", sun);
-  for (const GeoTransform& posts : {line_posts, table_posts}) {
-    const auto& [origin_x, origin_y, cell_x, cell_y] = posts;
-    key.add("origin_x", origin_x)
-        .add("origin_y", origin_y)
-        .add("cell_x", cell_x)
-        .add("cell_y", cell_y);
-  }
+  for (const GeoTransform& posts : {line_posts, table_posts}) add_transform(key, posts);
   key.add("latitude_deg", loaded.scene.climate.latitude_deg)
       .add("sunshine", loaded.scene.climate.sunshine);
   if (sites)
@@ -433,44 +422,6 @@ LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const Cover
                                     {dem.transform, dem.width(), dem.height(), dem.crs},
                                     context.whole == nullptr, progress);
   return cover;
-}
-
-// Of the polish, which takes most of the time: dabs on the ground are seen from afar.
-constexpr int ground_sweeps = 8;
-
-// The composite of a scene on its ground. Windows have none of their own: its texels are as fine
-// for the whole.
-Raster<GroundColour> make_scene_texture(const LoadedScene& loaded, const LandCover& cover,
-                                        const Dem& dem, Progress& progress, const Cache& cache) {
-  const SceneLandCover& settings = loaded.scene.land_cover;
-  const std::string file = find_scene_file(loaded, settings.texture);
-  const CompositeModel composite = read_composite(file);
-  const std::vector<LandCoverClass> classes = classes_of_labels(composite, file);
-  const RasterFrame frame{dem.transform, dem.width(), dem.height(), dem.crs};
-  GroundTextureParameters parameters;
-  parameters.texel_m = settings.texture_m > 0.0 ? settings.texture_m : dem.cell_m();
-  parameters.make.seed = loaded.scene.seed;
-  parameters.make.sweeps = ground_sweeps;
-  const auto key = [&] {
-    CacheKeyText text;
-    text.add("composite", composite_text(composite))
-        .add("texel_m", parameters.texel_m)
-        .add("seed", parameters.make.seed)
-        .add("sweeps", parameters.make.sweeps)
-        .add("classes", cover.classes.cells)
-        .add("width", frame.width)
-        .add("height", frame.height)
-        .add("crs", frame.crs);
-    for (const GeoTransform& t : {cover.classes.transform, frame.transform})
-      text.add("origin_x", t.origin_x)
-          .add("origin_y", t.origin_y)
-          .add("cell_x", t.cell_x)
-          .add("cell_y", t.cell_y);
-    return make_cache_key(CachedProduct::ground_texture, text, subject_of(loaded));
-  };
-  return cached<Raster<GroundColour>>(cache, key, progress, [&](Progress& watcher) {
-    return paint_ground_texture(composite, classes, cover, frame, parameters, watcher);
-  });
 }
 
 }  // namespace
