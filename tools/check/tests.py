@@ -68,6 +68,7 @@ tested_by = {
     "renderer/scene/scene_table_*": ("renderer/scene/scene_table", "rows of one table, which the tests go through"),
     "renderer/scene/scene_text": ("renderer/scene/scene_file", "WrittenScenesReadBack"),
     "renderer/trace/guidance_rays": ("renderer/trace/guidance", "places and directions of a pixel's rays"),
+    "tools/cli/layers/fit_sources": ("tools/cli/layers/command_layers_fit", "pictures and maps that a fit reads, and those it refuses"),
     "tools/cli/layers/ground_climate_options":
         ("tools/cli/layers/command_layers_apply", "the same options of apply and fit: ClimateIsComputed… and its neighbours"),
     "tools/fuzz/fuzz": ("tools/fuzz/targets", "libFuzzer's driver of the same table; tools/check_all fuzz runs it"),
