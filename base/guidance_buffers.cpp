@@ -253,19 +253,6 @@ const GuidanceChannel& channel_of(GuidanceMember member) {
   throw Error(ErrorKind::bug, "guidance channels", "a grid that is not in the table");
 }
 
-std::string describe_guidance_channels() {
-  std::string out = "| channel | unit | meaning |\n|---|---|---|\n";
-  for (const GuidanceChannel& channel : channels) {
-    std::string names;
-    for (std::size_t k = 0; k < channel.components(); ++k)
-      names += fmt::format("{}{}", k == 0 ? "" : " ", channel.names[k]);
-    const bool rare = channel.maker == ChannelMaker::strokes;
-    out += fmt::format("| `{}` | {} | {}{} |\n", names, channel.unit, channel.meaning,
-                       rare ? " (example paintings only)" : "");
-  }
-  return out;
-}
-
 bool has_channel(const GuidanceBuffers& guidance, GuidanceMember member) {
   return std::visit(
       [&](auto grid) {

@@ -160,9 +160,6 @@ struct GuidanceChannel {
 std::span<const GuidanceChannel> guidance_channels();
 const GuidanceChannel& channel_of(GuidanceMember member);
 
-// The table in Markdown, with a header and one row per grid.
-std::string describe_guidance_channels();
-
 // Whether the buffers have that channel, in their size.
 bool has_channel(const GuidanceBuffers& guidance, GuidanceMember member);
 // Checks the channels that a stage needs, once when it starts. Throws Error(kind) if a channel is

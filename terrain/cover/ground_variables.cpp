@@ -200,16 +200,4 @@ void require_layer_input(const std::string& name, const std::string& where) {
               fmt::format("{}", fmt::join(known, ", ")));
 }
 
-std::string describe_ground_variables() {
-  const auto who = [](const GroundVariable& row) {
-    if (row.known_to == KnownTo::rules) return "rules";
-    if (row.input == LayerInputKind::none) return "rules, layers";
-    return row.known_to == KnownTo::layers ? "layers, functions" : "rules, layers, functions";
-  };
-  std::string out = "| name | unit | meaning | available in |\n|---|---|---|---|\n";
-  for (const GroundVariable& row : ground_variables())
-    out += fmt::format("| `{}` | {} | {} | {} |\n", row.name, row.unit, row.meaning, who(row));
-  return out;
-}
-
 }  // namespace belvedere

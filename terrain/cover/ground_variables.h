@@ -79,7 +79,4 @@ inline constexpr double slope_smooth_m = 60.0;
 // Level ground has no exposure: it fades out below about this rise, metres per metre.
 inline constexpr double exposure_fade = 0.02;
 
-// The table as in docs/class_rules.md.
-std::string describe_ground_variables();
-
 }  // namespace belvedere

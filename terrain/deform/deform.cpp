@@ -198,15 +198,6 @@ bool Deformation::is_local() const {
          moves_in_plan();
 }
 
-double bend_drop_m(const DeformParameters& parameters, double distance_m) {
-  return Deformation(parameters, {0.0, 0.0}).drop_m(distance_m);
-}
-
-glm::dvec3 deform_point(glm::dvec3 point, glm::dvec2 viewer_xy,
-                        const DeformParameters& parameters) {
-  return Deformation(parameters, viewer_xy).point(point);
-}
-
 DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform,
                        glm::dvec3 origin, const Deformation& deformation) {
   DeformedSurface surface{Grid<glm::vec3>(altitude_m.width(), altitude_m.height()), origin, {}};

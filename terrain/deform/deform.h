@@ -109,10 +109,6 @@ class Deformation {
   DisplacementField field_;
 };
 
-// bend_drop_m and deform_point are Deformation::drop_m and ::point for a single use.
-double bend_drop_m(const DeformParameters& parameters, double distance_m);
-glm::dvec3 deform_point(glm::dvec3 point, glm::dvec2 viewer_xy, const DeformParameters& parameters);
-
 // Vertices displaced in three dimensions; vertex (x, y) belongs to cell centre (x, y) of the DEM,
 // which gives its undeformed position. Positions are relative to `origin`, subtracted in double
 // before conversion to float.

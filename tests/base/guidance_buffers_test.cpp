@@ -1,5 +1,6 @@
 #include "base/guidance_buffers.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -95,6 +96,20 @@ TEST(GuidanceChannels, KeepTheNamesThatFilesHaveHad) {
                            "paint/stroke.id ",
                            "paint/ground.from "})
     EXPECT_THAT(all, HasSubstr(name));
+}
+
+// The table in Markdown, with a header and one row per grid.
+std::string describe_guidance_channels() {
+  std::string out = "| channel | unit | meaning |\n|---|---|---|\n";
+  for (const GuidanceChannel& channel : guidance_channels()) {
+    std::string names;
+    for (std::size_t k = 0; k < channel.components(); ++k)
+      names += fmt::format("{}{}", k == 0 ? "" : " ", channel.names[k]);
+    const bool rare = channel.maker == ChannelMaker::strokes;
+    out += fmt::format("| `{}` | {} | {}{} |\n", names, channel.unit, channel.meaning,
+                       rare ? " (example paintings only)" : "");
+  }
+  return out;
 }
 
 TEST(GuidanceChannels, DocsHaveTheTable) {

@@ -1,10 +1,5 @@
 #include "texture/strokes/stroke_table.h"
 
-#include <fmt/core.h>
-
-#include <algorithm>
-
-#include "base/error.h"
 #include "texture/strokes/class_strokes.h"
 
 namespace belvedere {
@@ -224,14 +219,6 @@ constexpr StrokeKind kinds[] = {
 }  // namespace
 
 std::span<const StrokeKind> stroke_kinds() { return kinds; }
-
-const StrokeKind& find_stroke_kind(std::string_view name) {
-  const auto* const found = std::find_if(std::begin(kinds), std::end(kinds),
-                                         [&](const StrokeKind& kind) { return kind.name == name; });
-  if (found == std::end(kinds))
-    throw Error(ErrorKind::bug, "strokes", fmt::format("unknown kind of stroke \"{}\"", name));
-  return *found;
-}
 
 bool is_painted(const StrokeKind& kind, const StrokeLayers& layers) { return layers.*kind.layer; }
 

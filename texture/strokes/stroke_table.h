@@ -42,8 +42,6 @@ struct StrokeKind {
 
 // All kinds, in the order of painting.
 std::span<const StrokeKind> stroke_kinds();
-// By name; throws Error(bug) where there is none.
-const StrokeKind& find_stroke_kind(std::string_view name);
 // Whether a kind is among the requested layers.
 bool is_painted(const StrokeKind& kind, const StrokeLayers& layers);
 // The layer of its strokes.

@@ -11,7 +11,6 @@ namespace belvedere::synth {
 // operation compares colour and class of several pixels. Classes are dense numbers 0, 1, 2 … in the
 // order of their labels; no_class is 255.
 inline constexpr std::uint32_t no_class = 255;
-inline constexpr int max_classes = 255;
 inline constexpr int padding =
     4;  // words around each picture; a patch of radius 3 read 8 words wide stays inside
 inline constexpr int patch_radius = 3;  // patches are 7 × 7 by default …

@@ -40,7 +40,6 @@ class TexelRecords {
     return words_[static_cast<std::size_t>(texel) * record_words_];
   }
   const std::uint32_t* data() const { return words_.data(); }
-  std::size_t record_words() const { return record_words_; }
   void forget_uses();
   // Whether a silhouette of the exemplar lies between a texel and its neighbour by (dx, dy), each
   // -1 … 1; diagonals may pass either corner.

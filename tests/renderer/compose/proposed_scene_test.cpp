@@ -65,7 +65,7 @@ TEST_F(ProposedScenes, TheRenderersViewPutsTheMainSummitWhereItWasFound) {
   deform.summits.clear();  // raised by the scene, on top of what was measured
   const Anchor& main = massifs_.anchors[static_cast<std::size_t>(best_.plan.anchor)];
   const glm::dvec3 position =
-      deform_point({main.position, main.altitude_m}, view.viewer_xy, deform);
+      Deformation(deform, view.viewer_xy).point({main.position, main.altitude_m});
   const auto at = make_camera(view.camera)->project(position);
   ASSERT_TRUE(at);
   const AnchorSight& sight = best_.measures.anchors[static_cast<std::size_t>(best_.plan.anchor)];

@@ -15,9 +15,9 @@
 #include "renderer/paint/palette.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "tests/renderer/exemplar/painting_figures.h"
+#include "tests/texture/strokes/stroke_picture.h"
 #include "texture/strokes/ice/ice_plan.h"
 #include "texture/strokes/stroke_painter.h"
-#include "texture/strokes/stroke_table.h"
 
 namespace belvedere {
 namespace {

@@ -199,7 +199,7 @@ TEST(Guidance, PlacesProjectBackIntoTheirPixels) {
       ++ground;
       const glm::dvec3 position = glm::dvec3(b.position_m[i]) + world.surface.origin;
       const auto at =
-          camera->project(deform_point(position, world.viewer, world.deform_parameters));
+          camera->project(Deformation(world.deform_parameters, world.viewer).point(position));
       ASSERT_TRUE(at);
       // Inside the pixel; a facet differs from the bilinear altitude by up to some decimetres.
       ASSERT_NEAR(at->x, x + 0.5, 0.6) << projection;

@@ -1,5 +1,6 @@
 #include "terrain/cover/ground_variables.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,6 +21,19 @@ namespace belvedere {
 namespace {
 
 using testing::HasSubstr;
+
+// The table as in docs/class_rules.md.
+std::string describe_ground_variables() {
+  const auto who = [](const GroundVariable& row) {
+    if (row.known_to == KnownTo::rules) return "rules";
+    if (row.input == LayerInputKind::none) return "rules, layers";
+    return row.known_to == KnownTo::layers ? "layers, functions" : "rules, layers, functions";
+  };
+  std::string out = "| name | unit | meaning | available in |\n|---|---|---|---|\n";
+  for (const GroundVariable& row : ground_variables())
+    out += fmt::format("| `{}` | {} | {} | {} |\n", row.name, row.unit, row.meaning, who(row));
+  return out;
+}
 
 TEST(GroundVariables, TheDocumentHasTheTable) {
   EXPECT_THAT(test::read_bytes(test::source_folder() + "/docs/class_rules.md"),

@@ -43,7 +43,7 @@ TEST(Deform, NothingAskedIsTheIdentity) {
               glm::vec3(position.x - origin.x, position.y - origin.y, altitude(x, y)));
   }
   const glm::dvec3 point(123.25, -9.5, 777.125);
-  EXPECT_EQ(deform_point(point, {0.0, 0.0}, {}), point);
+  EXPECT_EQ(Deformation({}, {}).point(point), point);
 }
 
 TEST(Deform, BendIsItsFormula) {
@@ -52,14 +52,14 @@ TEST(Deform, BendIsItsFormula) {
     q.earth_curvature = false;
     return q;
   }();
-  EXPECT_DOUBLE_EQ(bend_drop_m(p, 82000.0), 6e-6 * 4000.0 * 4000.0);
-  EXPECT_DOUBLE_EQ(bend_drop_m(p, 22000.0), 60000.0 * 60000.0 / 280000.0);
-  EXPECT_DOUBLE_EQ(bend_drop_m(p, 100000.0),
+  EXPECT_DOUBLE_EQ(Deformation(p, {}).drop_m(82000.0), 6e-6 * 4000.0 * 4000.0);
+  EXPECT_DOUBLE_EQ(Deformation(p, {}).drop_m(22000.0), 60000.0 * 60000.0 / 280000.0);
+  EXPECT_DOUBLE_EQ(Deformation(p, {}).drop_m(100000.0),
                    18000.0 * 18000.0 / 280000.0 + 6e-6 * 22000.0 * 22000.0);
   // 3 km east and 4 km north of the viewer: 5 km, in any direction alike.
-  EXPECT_DOUBLE_EQ(deform_point({3000.0, 4000.0, 1000.0}, {0.0, 0.0}, p).z,
+  EXPECT_DOUBLE_EQ(Deformation(p, {}).point({3000.0, 4000.0, 1000.0}).z,
                    1600.0 - 77000.0 * 77000.0 / 280000.0);
-  EXPECT_DOUBLE_EQ(deform_point({-4000.0, 3000.0, 1000.0}, {0.0, 0.0}, p).z,
+  EXPECT_DOUBLE_EQ(Deformation(p, {}).point({-4000.0, 3000.0, 1000.0}).z,
                    1600.0 - 77000.0 * 77000.0 / 280000.0);
 }
 
@@ -67,22 +67,22 @@ TEST(Deform, EarthCurvatureDropsAsSurveyorsTable) {
   DeformParameters p;
   p.earth_curvature = true;
   p.refraction = 0.0;
-  EXPECT_NEAR(bend_drop_m(p, 10000.0), 7.848, 0.001);  // d² / 2R
-  EXPECT_NEAR(bend_drop_m(p, 100000.0), 784.8, 0.1);
+  EXPECT_NEAR(Deformation(p, {}).drop_m(10000.0), 7.848, 0.001);  // d² / 2R
+  EXPECT_NEAR(Deformation(p, {}).drop_m(100000.0), 784.8, 0.1);
   p.refraction = 0.13;
-  EXPECT_NEAR(bend_drop_m(p, 100000.0), 682.8, 0.1);
+  EXPECT_NEAR(Deformation(p, {}).drop_m(100000.0), 682.8, 0.1);
   // It is not exaggerated; altitudes are.
   p.exaggeration = 2.0;
-  EXPECT_NEAR(deform_point({100000.0, 0.0, 500.0}, {0.0, 0.0}, p).z, 1000.0 - 682.8, 0.1);
-  EXPECT_EQ(bend_drop_m(p, 0.0), 0.0);
+  EXPECT_NEAR(Deformation(p, {}).point({100000.0, 0.0, 500.0}).z, 1000.0 - 682.8, 0.1);
+  EXPECT_EQ(Deformation(p, {}).drop_m(0.0), 0.0);
 }
 
 TEST(Deform, BendIsSmoothWhereTheFarTermBegins) {
   DeformParameters p = panorama();
   p.bend.radius_m = 0.0;
   p.earth_curvature = false;
-  EXPECT_EQ(bend_drop_m(p, 78000.0), 0.0);
-  EXPECT_NEAR(bend_drop_m(p, 78001.0), 6e-6, 1e-12);
+  EXPECT_EQ(Deformation(p, {}).drop_m(78000.0), 0.0);
+  EXPECT_NEAR(Deformation(p, {}).drop_m(78001.0), 6e-6, 1e-12);
 }
 
 // All effects at once, to compare points with vertices, and numbers of threads.
@@ -104,7 +104,7 @@ DeformParameters rearranged() {
 
 // Also 42 km from the origin and 5,260 km from the equator, where a vertex must still lie within
 // half a centimetre.
-TEST(Deform, VertexEqualsDeformPoint) {
+TEST(Deform, VertexEqualsItsPoint) {
   const Grid<float> altitude = hills();
   const glm::dvec2 viewer(691234.56, 5302017.89);
   for (const bool everything : {false, true}) {
@@ -113,7 +113,7 @@ TEST(Deform, VertexEqualsDeformPoint) {
     int moved = 0;
     for (const auto [x, y] : test::cells(40, 30)) {
       const glm::dvec3 from(innsbruck.to_crs(x, y), altitude(x, y));
-      const glm::dvec3 exact = deform_point(from, viewer, p);
+      const glm::dvec3 exact = Deformation(p, viewer).point(from);
       const glm::vec3 vertex = surface.vertices_m(x, y);
       ASSERT_EQ(vertex, glm::vec3(exact - surface.origin)) << x << ' ' << y;
       const glm::dvec3 off = glm::abs(glm::dvec3(vertex) + surface.origin - exact);
@@ -132,7 +132,7 @@ TEST(Deform, ExaggerationIsExactAtBothEndsAndSmoothBetween) {
   p.foreground_to_m = 20000.0;
   p.background_from_m = 60000.0;
   p.exaggeration_base_m = 600.0;
-  const auto height = [&](double d) { return deform_point({0.0, d, 1600.0}, {0.0, 0.0}, p).z; };
+  const auto height = [&](double d) { return Deformation(p, {}).point({0.0, d, 1600.0}).z; };
   EXPECT_EQ(height(0.0), 600.0 + 1.7 * 1000.0);
   EXPECT_EQ(height(20000.0), 600.0 + 1.7 * 1000.0);
   EXPECT_EQ(height(60000.0), 600.0 + 1.1 * 1000.0);
@@ -142,7 +142,7 @@ TEST(Deform, ExaggerationIsExactAtBothEndsAndSmoothBetween) {
     EXPECT_NEAR(height(edge + 10.0), height(edge - 10.0), 0.01);
   for (double d = 20000.0; d < 60000.0; d += 500.0) EXPECT_LT(height(d + 500.0), height(d));
   // The base keeps its height everywhere.
-  EXPECT_EQ(deform_point({0.0, 40000.0, 600.0}, {0.0, 0.0}, p).z, 600.0);
+  EXPECT_EQ(Deformation(p, {}).point({0.0, 40000.0, 600.0}).z, 600.0);
 }
 
 TEST(Deform, ExaggerationByDistancePassesThroughItsPoints) {
@@ -195,7 +195,7 @@ TEST(Deform, ASummitRisesAloneAndSmoothly) {
   DeformParameters p;
   p.summits = {{{5000.0, 5000.0}, 3000.0, 1.5, 1000.0}};
   const auto rise = [&](double from_summit, double z) {
-    return deform_point({5000.0 + from_summit, 5000.0, z}, {0.0, 0.0}, p).z - z;
+    return Deformation(p, {}).point({5000.0 + from_summit, 5000.0, z}).z - z;
   };
   EXPECT_DOUBLE_EQ(rise(0.0, 2600.0), 0.5 * 1600.0);
   EXPECT_EQ(rise(3000.0, 2600.0), 0.0);

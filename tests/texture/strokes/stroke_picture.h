@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -48,6 +49,12 @@ inline Picture plain_picture(LandCoverClass id, int width, int height) {
 }
 
 inline float luma(glm::vec3 c) { return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z; }
+
+inline const StrokeKind& find_stroke_kind(std::string_view name) {
+  for (const StrokeKind& kind : stroke_kinds())
+    if (kind.name == name) return kind;
+  throw std::out_of_range("no kind of stroke has this name");
+}
 
 // The strokes of one kind alone on a whole sheet.
 inline std::vector<Stroke> grow_strokes(std::string_view name, const StrokeScene& scene) {
