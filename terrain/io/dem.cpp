@@ -180,11 +180,26 @@ float from_coarse(const Grid<float>& coarse, int x, int y) {
          0.0625F * coarse(nx, ny);
 }
 
-// Relaxes the void cells towards Laplace's equation: each becomes the mean of its neighbours, with
-// known ones fixed. The pyramid has already solved the coarse scales, so a few iterations suffice
-// for the cell scale and for a continuous border. Each iteration reads the previous one (Jacobi,
-// undamped: the coarse start has no checkerboard), so order does not matter.
-void relax(Grid<float>& z, const std::vector<std::size_t>& voids, int rounds) {
+// A membrane stretched over the voids from their borders: continuous there, and between the lowest
+// and highest altitude of the border inside. Coarse to fine, as the first pass of a multigrid
+// solver.
+void fill_voids(Grid<float>& z) {
+  std::vector<std::size_t> voids;
+  for (std::size_t i = 0; i < z.size(); ++i)
+    if (std::isnan(z[i])) voids.push_back(i);
+  if (voids.empty()) return;
+  Grid<float> coarse = halve(z);
+  fill_voids(coarse);
+  const auto width = static_cast<std::size_t>(z.width());
+  for (const std::size_t i : voids)
+    z[i] = from_coarse(coarse, static_cast<int>(i % width), static_cast<int>(i / width));
+  relax_voids(z, voids);
+}
+
+}  // namespace
+
+void relax_voids(Grid<float>& z, const std::vector<std::size_t>& voids) {
+  constexpr int rounds = 24;
   std::vector<float> next(voids.size());
   const auto width = static_cast<std::size_t>(z.width());
   for (int round = 0; round < rounds; ++round) {
@@ -201,25 +216,6 @@ void relax(Grid<float>& z, const std::vector<std::size_t>& voids, int rounds) {
     for (std::size_t i = 0; i < voids.size(); ++i) z[voids[i]] = next[i];
   }
 }
-
-// A membrane stretched over the voids from their borders: continuous there, and between the lowest
-// and highest altitude of the border inside. Coarse to fine, as the first pass of a multigrid
-// solver.
-void fill_voids(Grid<float>& z) {
-  std::vector<std::size_t> voids;
-  for (std::size_t i = 0; i < z.size(); ++i)
-    if (std::isnan(z[i])) voids.push_back(i);
-  if (voids.empty()) return;
-  Grid<float> coarse = halve(z);
-  fill_voids(coarse);
-  const auto width = static_cast<std::size_t>(z.width());
-  for (const std::size_t i : voids)
-    z[i] = from_coarse(coarse, static_cast<int>(i % width), static_cast<int>(i / width));
-  constexpr int rounds = 24;
-  relax(z, voids, rounds);
-}
-
-}  // namespace
 
 Dem make_dem(Raster<float> raster) {
   if (raster.cells.empty()) throw Error(ErrorKind::input, "terrain", "has no cells");

@@ -57,6 +57,12 @@ Dem read_own_dem(const RasterSource& source, Progress& progress);
 // Fills NaN cells and marks them; shared by read_dem and synthetic or in-memory terrain.
 Dem make_dem(Raster<float> raster);
 
+// Relaxes void cells towards Laplace's equation: each becomes the mean of its neighbours, with
+// known ones fixed. What they begin with has already solved the coarse scales, so a few iterations
+// suffice for the cell scale and for a continuous border. Each iteration reads the previous one
+// (Jacobi, undamped: the coarse start has no checkerboard), so order does not matter.
+void relax_voids(Grid<float>& z, const std::vector<std::size_t>& voids);
+
 // Checks for implausible elevation. Every command that reads elevation calls both functions, so
 // that all give the same errors and notes.
 

@@ -73,22 +73,10 @@ void extend_row(float* row, int count) {
 
 // A membrane over the void cells; coarse values are relaxed against the borders.
 void resolve(Grid<float>& z, const Grid<std::uint8_t>& filled) {
-  constexpr int rounds = 24;
   std::vector<std::size_t> voids;
   for (std::size_t i = 0; i < filled.size(); ++i)
     if (filled[i] != 0) voids.push_back(i);
-  std::vector<float> next(voids.size());
-  const auto width = static_cast<std::size_t>(z.width());
-  for (int round = 0; round < rounds && !voids.empty(); ++round) {
-    for (std::size_t i = 0; i < voids.size(); ++i) {
-      const auto x = static_cast<int>(voids[i] % width);
-      const auto y = static_cast<int>(voids[i] / width);
-      const float sum =
-          z.clamped(x - 1, y) + z.clamped(x + 1, y) + z.clamped(x, y - 1) + z.clamped(x, y + 1);
-      next[i] = 0.2F * (sum + z[voids[i]]);
-    }
-    for (std::size_t i = 0; i < voids.size(); ++i) z[voids[i]] = next[i];
-  }
+  relax_voids(z, voids);
 }
 
 }  // namespace

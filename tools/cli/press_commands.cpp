@@ -1,15 +1,15 @@
-#include "tools/cli/press_commands.h"
-
 #include <fmt/core.h>
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "base/text/hex_colour.h"
 #include "base/text/json.h"
 #include "base/text/parse_number.h"
+#include "renderer/image/icc/device_colour.h"
 #include "renderer/image/icc/press_colour.h"
 #include "renderer/image/rows/picture_files.h"
 #include "renderer/press/print_pdf.h"
@@ -20,6 +20,16 @@
 
 namespace belvedere::tools {
 
+namespace {
+
+// Options shared by commands for printers.
+struct PressOptions {
+  std::string profile;
+  std::string intent = "relative";
+  bool no_black_point = false;
+  DeviceParameters device() const { return {rendering_intent(intent), !no_black_point}; }
+};
+// --profile, and with `conversion` also --intent and --no-black-point.
 void add_press_options(CommandOptions& command, PressOptions& options, bool conversion) {
   command.add_option("--profile FILE", options.profile, "ICC profile of the printing press, CMYK")
       .required()
@@ -34,7 +44,11 @@ void add_press_options(CommandOptions& command, PressOptions& options, bool conv
                    "Keeps the picture's black, even where the press has none as dark");
 }
 
-namespace {
+void add_outside(CommandOptions& command, double& delta_e) {
+  command.add_option("--outside DE", delta_e, "ΔE2000 above which a colour counts as unprintable")
+      .range(0.1, 50.0)
+      .show_default();
+}
 
 struct ProofOptions {
   std::string picture;
@@ -84,11 +98,7 @@ std::function<int()> add_proof(CommandOptions& command) {
       .required();
   add_press_options(command, options->press, true);
   command.add_flag("--paper", options->paper, "Simulates the paper's colour and the press's black");
-  command
-      .add_option("--outside DE", options->outside_delta_e,
-                  "ΔE2000 above which a colour counts as unprintable")
-      .range(0.1, 50.0)
-      .show_default();
+  add_outside(command, options->outside_delta_e);
   command
       .add_option("--ink-limit PERCENT", options->ink_limit_percent,
                   "Total ink above which pixels are counted; 0: the profile's limit")
@@ -159,11 +169,7 @@ std::function<int()> add_palette_check(CommandOptions& command) {
   const auto options = std::make_shared<PaletteCheckOptions>();
   command.add_option("PALETTE", options->palettes, "Built-in palettes or .toml files").required();
   add_press_options(command, options->press, false);
-  command
-      .add_option("--outside DE", options->outside_delta_e,
-                  "ΔE2000 above which a colour counts as unprintable")
-      .range(0.1, 50.0)
-      .show_default();
+  add_outside(command, options->outside_delta_e);
   command.add_flag("--json", options->json, "As JSON");
   command.footer(
       "Exit status 0: the press can print all colours; 1: it cannot print some. Beside each is the "
