@@ -19,9 +19,14 @@ PixelRect StrokeScene::seeded() const {
           std::min(held.y1, origin.y + window.asked.y1 + seed_reach_px)};
 }
 
-CellRange StrokeScene::cells_within(int first_px, int end_px, float spacing_px, int count) {
-  return {std::max(0, static_cast<int>(static_cast<float>(first_px) / spacing_px) - 1),
-          std::min(count - 1, static_cast<int>(static_cast<float>(end_px) / spacing_px) + 1)};
+SeededCells StrokeScene::seeded_cells(float spacing_px, bool with_cut) const {
+  const auto along = [&](int first_px, int end_px, int sheet) {
+    const auto cell = [&](int px) { return static_cast<int>(static_cast<float>(px) / spacing_px); };
+    return CellRange{std::max(0, cell(first_px) - 1),
+                     std::min(cell(sheet) - (with_cut ? 0 : 1), cell(end_px) + 1)};
+  };
+  const PixelRect rect = seeded();
+  return {along(rect.x0, rect.x1, sheet_px().x), along(rect.y0, rect.y1, sheet_px().y)};
 }
 
 std::uint64_t StrokeScene::sheet_index(std::size_t i) const {

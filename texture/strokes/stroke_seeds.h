@@ -37,10 +37,13 @@ class StrokeSeed {
   std::uint64_t draw_ = 0;
 };
 
-// Cells in a row, first … last.
+// Cells of a lattice of the sheet: first … last along each axis.
 struct CellRange {
   int first = 0;
   int last = -1;
+};
+struct SeededCells {
+  CellRange columns, lines;
 };
 
 // The picture under the strokes, with everything that steers them. A position is in px of the
@@ -61,9 +64,9 @@ struct StrokeScene {
   }
   // Where seeds are needed, px of the sheet.
   PixelRect seeded() const;
-  // The cells that touch first_px to end_px, of `count` cells of spacing_px along one axis of the
-  // sheet, and one more on each side.
-  static CellRange cells_within(int first_px, int end_px, float spacing_px, int count);
+  // Cells of spacing_px that touch it, and one more on each side; none beyond the sheet but,
+  // where it is asked for, the last one that its edge cuts.
+  SeededCells seeded_cells(float spacing_px, bool with_cut = true) const;
   // Row-major index on the sheet of a pixel of the buffers.
   std::uint64_t sheet_index(std::size_t i) const;
 
@@ -128,18 +131,13 @@ void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 position, floa
 template <class Grown = Stroke, class Make>
 std::vector<Grown> sow(const StrokeScene& scene, float spacing_units, Stream stream, Make&& make) {
   const float spacing = spacing_units * scene.scale();
-  const glm::ivec2 sheet = scene.sheet_px();
-  const PixelRect seeded = scene.seeded();
-  const CellRange columns = StrokeScene::cells_within(
-      seeded.x0, seeded.x1, spacing, static_cast<int>(static_cast<float>(sheet.x) / spacing) + 1);
-  const CellRange lines = StrokeScene::cells_within(
-      seeded.y0, seeded.y1, spacing, static_cast<int>(static_cast<float>(sheet.y) / spacing) + 1);
-  const int down = std::max(0, lines.last - lines.first + 1);
+  const SeededCells cells = scene.seeded_cells(spacing);
+  const int down = std::max(0, cells.lines.last - cells.lines.first + 1);
   std::vector<std::vector<Grown>> rows(static_cast<std::size_t>(down));
   const std::uint64_t key = stream_seed(scene.parameters.seed, stream);
   parallel_rows(down, [&](int row) {
-    const int j = lines.first + row;
-    for (int i = columns.first; i <= columns.last; ++i) {
+    const int j = cells.lines.first + row;
+    for (int i = cells.columns.first; i <= cells.columns.last; ++i) {
       StrokeSeed seed(key, i, j);
       const float x = (static_cast<float>(i) + seed.uniform()) * spacing;
       const float y = (static_cast<float>(j) + seed.uniform()) * spacing;

@@ -160,17 +160,12 @@ bool find_plot(const StrokeScene& scene, Stream stream, glm::vec2 at, Plot& plot
 // the plots.
 std::vector<Plot> find_plots(const StrokeScene& scene, Stream stream) {
   const float step = std::max(1.F, 1.4F * scene.scale());
-  const glm::ivec2 sheet = scene.sheet_px();
-  const PixelRect seeded = scene.seeded();
-  const CellRange columns = StrokeScene::cells_within(
-      seeded.x0, seeded.x1, step, static_cast<int>(static_cast<float>(sheet.x) / step));
-  const CellRange lines = StrokeScene::cells_within(
-      seeded.y0, seeded.y1, step, static_cast<int>(static_cast<float>(sheet.y) / step));
-  const int down = std::max(0, lines.last - lines.first + 1);
+  const SeededCells cells = scene.seeded_cells(step, false);
+  const int down = std::max(0, cells.lines.last - cells.lines.first + 1);
   std::vector<std::vector<Plot>> rows(static_cast<std::size_t>(down));
   parallel_rows(down, [&](int row) {
-    for (int x = columns.first; x <= columns.last; ++x) {
-      const glm::vec2 at = (glm::vec2(x, lines.first + row) + 0.5F) * step;
+    for (int x = cells.columns.first; x <= cells.columns.last; ++x) {
+      const glm::vec2 at = (glm::vec2(x, cells.lines.first + row) + 0.5F) * step;
       Plot plot{};
       if (scene.on_canvas(at) && find_plot(scene, stream, at, plot))
         rows[static_cast<std::size_t>(row)].push_back(plot);
@@ -452,12 +447,7 @@ std::vector<Stroke> churches(const StrokeScene& scene, Stream stream) {
           });
   const std::uint64_t key = stream_seed(scene.parameters.seed, Stream::church_centres);
   const float step = net_units * scene.scale();
-  const glm::ivec2 sheet = scene.sheet_px();
-  const PixelRect seeded = scene.seeded();
-  const CellRange columns = StrokeScene::cells_within(
-      seeded.x0, seeded.x1, step, static_cast<int>(static_cast<float>(sheet.x) / step) + 1);
-  const CellRange lines = StrokeScene::cells_within(
-      seeded.y0, seeded.y1, step, static_cast<int>(static_cast<float>(sheet.y) / step) + 1);
+  const auto [columns, lines] = scene.seeded_cells(step);
   for (int y = lines.first; y <= lines.last; ++y)
     for (int x = columns.first; x <= columns.last; ++x) {
       const std::optional<float> built = centre_at(scene, {x, y});
