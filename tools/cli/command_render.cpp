@@ -95,36 +95,31 @@ Action add_job(CommandOptions& command, const char* footer, Wanted wanted) {
   add_scene_options(command, options->scene);
   add_locked_option(command, options->scene);
   command
-      .add_option("--out", options->out,
+      .add_option("--out DIR", options->out,
                   "Folder for the results; created if missing. Default: named like the scene")
-      .type_name("DIR")
       .files(FileUse::later);
   command
-      .add_option("--tile", options->tile_size,
+      .add_option("--tile N", options->tile_size,
                   "Side of the tiles that threads work on, in pixels. Changes no pixel")
-      .type_name("N")
       .show_default()
       .range(8, 4096);
   command
-      .add_option("--part", options->part,
+      .add_option("--part X,Y,W,H", options->part,
                   "Only a rectangle of the sheet, as x,y,width,height in its pixels, as a proof")
-      .type_name("X,Y,W,H")
       .list(',', 4);
   command
-      .add_option("--piece", options->piece_px,
+      .add_option("--piece N", options->piece_px,
                   "Side of the pieces that are finished one after the other, in pixels; 0, the "
                   "default, is 1024. Changes no pixel")
-      .type_name("N")
       .range(0, 4096);
   command.add_flag(
       "--resume", options->resume,
       "Resumes a run that was stopped in this folder; the files are the same as without the stop");
   command.add_force(options->force);
-  command
-      .add_option("--channels", options->channels,
-                  "Channels of guidance.exr, such as Z,landcover.id; none: no file. Default: all, "
-                  "40 bytes per pixel")
-      .type_name("NAME,…|none");
+  command.add_option(
+      "--channels NAME,…|none", options->channels,
+      "Channels of guidance.exr, such as Z,landcover.id; none: no file. Default: all, "
+      "40 bytes per pixel");
   if (wanted == Wanted::picture)
     command.add_flag("--match", options->match,
                      "Also writes match.exr: which texel of which picture each pixel was copied "

@@ -148,11 +148,6 @@ Option& Option::files(FileUse use, std::vector<std::string> (*all)(const std::st
   return *this;
 }
 
-Option& Option::type_name(const std::string& name) {
-  option_->type_name(name);
-  return *this;
-}
-
 Option& Option::show_default() {
   option_->capture_default_str();
   return *this;

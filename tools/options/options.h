@@ -57,8 +57,7 @@ class Option {
   Option(CLI::Option* option, CLI::App* command, std::shared_ptr<FileUses> uses)
       : option_(option), command_(command), uses_(std::move(uses)) {}
 
-  Option& type_name(const std::string& name);  // name of its value in the help: "DIR"
-  Option& show_default();                      // the help shows its present value
+  Option& show_default();  // the help shows its present value
   Option& required(bool is = true);
   // Options whose target may hold files of others get --force: pages, folders, and results that
   // consist of several files, of which `all` gives the paths.
