@@ -107,6 +107,14 @@ inline float close_share(float metres_per_unit) {
   return 1.0F - smoothstep(near_m, far_m, metres_per_unit);
 }
 
+// The two of several shapes that cover most of a pixel: their numbers from 1, 0 where there is
+// none, and their shares of it in 255ths.
+struct MattePixel {
+  std::array<std::uint16_t, 2> id{};
+  std::array<std::uint8_t, 2> share{};
+  bool operator==(const MattePixel&) const = default;
+};
+
 // The table of all guidance channels. Reading and writing files, the sheet of example panels,
 // docs/guidance.md and the tests use it, so a new channel is a row here, its member in
 // GuidanceBuffers and the stage that fills it.

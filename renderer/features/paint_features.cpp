@@ -375,6 +375,23 @@ void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features,
   });
 }
 
+void visit_coats(const DrawnFeatures& features, const Grid<float>& depth_m, PixelRect rect,
+                 const Grid<std::int16_t>* crest_rows, const UseCoat& use) {
+  const std::vector<Layer> layers = layers_of(features.style);
+  parallel_tiles(rect.width(), rect.height(), tile_px, [&](PixelRect part) {
+    const PixelRect tile = moved(part, rect.x0, rect.y0);
+    const ShownRows rows(crest_rows, rect, tile);
+    const std::vector<std::uint32_t> numbers = features.lines_at(rows.traced(tile));
+    Coverage coverage(features, depth_m, rows, rect, tile);
+    for (const Layer& layer : layers) {
+      if (!coverage.lay(layer, numbers)) continue;
+      for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x)
+          if (const float share = coverage.at(x, y); share > 0.F) use(layer.kind, x, y, share);
+    }
+  });
+}
+
 Grid<std::uint8_t> find_cleared(const DrawnFeatures& features, const Grid<float>& depth_m,
                                 PixelRect rect, const Grid<std::int16_t>* crest_rows) {
   Grid<std::uint8_t> cleared(rect.width(), rect.height());

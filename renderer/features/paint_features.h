@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 
 #include "base/grid.h"
@@ -34,6 +35,13 @@ struct FeatureGround {
 void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features,
                     const FeatureGround& ground, PixelRect rect, PixelRect asked,
                     PaintParts* parts = nullptr);
+
+// Calls use(kind, x, y, share) for the pixels of a rectangle of the sheet that a coat of lines
+// covers, at each pixel from the lowest coat to the topmost; by several threads, of which none has
+// the pixels of another. `crest_rows` as in FeatureGround.
+using UseCoat = std::function<void(int kind, int x, int y, float share)>;
+void visit_coats(const DrawnFeatures& features, const Grid<float>& depth_m, PixelRect rect,
+                 const Grid<std::int16_t>* crest_rows, const UseCoat& use);
 
 // 1 where nothing may stand, because a line, a river, a rope above it or a house needs the space:
 // on pixels of that line's own ground. `crest_rows` as in FeatureGround.

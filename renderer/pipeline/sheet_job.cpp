@@ -1,6 +1,7 @@
 #include "renderer/pipeline/sheet_job.h"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
@@ -10,6 +11,8 @@
 #include "base/error.h"
 #include "base/grid.h"
 #include "base/progress.h"
+#include "renderer/features/feature_matte.h"
+#include "renderer/image/exr/compositing_file.h"
 #include "renderer/image/exr/match_file.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/rows/picture_files.h"
@@ -20,7 +23,10 @@
 #include "renderer/pipeline/scene_labels.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_work.h"
+#include "renderer/rock/rock_ground.h"
 #include "renderer/sheet/piece_file.h"
+#include "renderer/sheet/work_folder.h"
+#include "renderer/stages/lit_picture.h"
 #include "renderer/stages/stages.h"
 #include "renderer/world/lazy_value.h"
 #include "renderer/world/scene_features.h"
@@ -29,7 +35,8 @@ namespace belvedere {
 namespace {
 
 constexpr const char* notes_bytes = "notes";
-constexpr const char* origin_note = "origin";  // origin of positions
+constexpr const char* origin_note = "origin";       // origin of positions
+constexpr const char* matte_bytes = "matte_names";  // a line for each kind of features
 
 // Headers of all files.
 void keep_notes(const LoadedScene& loaded, const World& world, const WorkFolder& work) {
@@ -128,10 +135,12 @@ std::optional<BareView> make_pieces(const LoadedScene& loaded, const SheetReques
   prepare_work(loaded, request, sheet, work, run);
   const bool copied = is_copied(sheet.world.scene, request);
   CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run, few) : CopyPlan{};
+  const bool for_blender = is_for_blender(request.channels);
   const DrawnFeatures features =
-      request.panorama ? draw_scene_features(loaded, sheet.world,
-                                             sheet.ground.inputs->strokes.winter, run.progress)
-                       : DrawnFeatures{};
+      request.panorama || for_blender
+          ? draw_scene_features(loaded, sheet.world, sheet.ground.inputs->strokes.winter,
+                                run.progress)
+          : DrawnFeatures{};
   const std::optional<SceneMargin>& margin = sheet.world.scene.margin;
   if (margin && margin->legend && !features.empty() && !work.has_bytes(feature_legend_bytes))
     work.keep_bytes(feature_legend_bytes,
@@ -139,6 +148,8 @@ std::optional<BareView> make_pieces(const LoadedScene& loaded, const SheetReques
   const PictureStages picture =
       add_picture_stages(sheet.graph, sheet.ground, copied ? &plan : nullptr, features);
 
+  if (for_blender)
+    work.keep_bytes(matte_bytes, fmt::format("{}", fmt::join(matte_names(features), "\n")));
   if (request.matches) work.keep_bytes(matched_bytes, to_note(pictures_of(plan)));
   const std::vector<std::string> products = products_of(request);
   const auto makes = [&](const char* product) {
@@ -154,6 +165,8 @@ std::optional<BareView> make_pieces(const LoadedScene& loaded, const SheetReques
     const PixelRect still = remaining_rect(missing, i);
     std::vector<StageGraph::Request> requests;
     if (makes("guidance")) requests.push_back({sheet.ground.guidance, still});
+    const bool shifted = for_blender && !features.empty() && sheet.ground.crests != nullptr;
+    if (shifted) requests.push_back({sheet.ground.crests, still});
     if (request.panorama) requests.push_back({picture.picture, still});
     if (request.matches) requests.push_back({picture.matches, still});
     sheet.graph.keep_only(requests);
@@ -162,6 +175,15 @@ std::optional<BareView> make_pieces(const LoadedScene& loaded, const SheetReques
       keep_chosen(guidance, request.channels);
       const auto packed = std::make_shared<PackedGuidance>(pack_guidance(guidance));
       writer.keep("guidance", piece, packed->planes, packed);
+    }
+    if (for_blender && !work.has("matte", piece)) {
+      const auto depths = with_channels({&GuidanceBuffers::depth_m}, sheet.world.surface->origin);
+      const CrestShift crests =
+          shifted ? sheet.ground.crests->read(piece, with_grids(&CrestShift::rows)) : CrestShift();
+      const auto matte = std::make_shared<Grid<MattePixel>>(
+          make_feature_matte(features, sheet.ground.guidance->read(piece, depths).depth_m, piece,
+                             shifted ? &crests.rows : nullptr));
+      writer.keep("matte", piece, {plane_of(*matte)}, matte);
     }
     if (makes("layer_ground") && lacks_layers(work, piece)) {
       const auto painted =
@@ -270,7 +292,7 @@ std::optional<GuidanceWriter> write_guidance_file(const SheetRequest& request,
                                                   const FileNotes& notes,
                                                   const FileNotes& file_notes,
                                                   const std::string& out_folder, const Run& run) {
-  if (!asks_for(request, "guidance")) return std::nullopt;
+  if (!asks_for(request, "guidance") || is_for_blender(request.channels)) return std::nullopt;
   const PixelRect region = joined.region;
   run.progress.begin("writing guidance", region.height());
   std::optional<GuidanceWriter> guidance(std::in_place, join(out_folder, "guidance.exr"),
@@ -286,6 +308,45 @@ std::optional<GuidanceWriter> write_guidance_file(const SheetRequest& request,
   }
   guidance->complete();
   return guidance;
+}
+
+// The rows of a painting in encoded sRGB.
+Grid<glm::vec3> painted_rows(const JoinedPieces& joined, int y0, int y1) {
+  Grid<glm::vec3> rows(joined.region.width(), y1 - y0);
+  joined.read("panorama", y0, y1, {plane_of(rows)});
+  return rows;
+}
+
+// The same for compositing programs, with the painting where it is made.
+std::optional<CompositingWriter> write_compositing_file(const SheetRequest& request,
+                                                        const JoinedPieces& joined,
+                                                        const FileNotes& notes,
+                                                        const std::string& out_folder,
+                                                        const Run& run) {
+  if (!is_for_blender(request.channels)) return std::nullopt;
+  const PixelRect region = joined.region;
+  run.progress.begin("writing guidance", region.height());
+  std::vector<std::string> features;
+  std::istringstream names(joined.work.read_bytes(matte_bytes));
+  for (std::string name; std::getline(names, name);) features.push_back(name);
+  std::optional<CompositingWriter> writer(std::in_place, join(out_folder, "guidance.exr"),
+                                          region.width(), region.height(), features, notes);
+  GuidanceBuffers like = sheet_guidance_like(parse_origin(notes));
+  keep_chosen(like, request.channels);
+  for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
+    const int y1 = std::min(region.y1, y0 + band_rows);
+    const PackedGuidance packed = blank_packed(like, region.width(), y1 - y0);
+    joined.read("guidance", y0, y1, packed.planes);
+    const GuidanceBuffers guidance = unpack_guidance(packed, like);
+    Grid<MattePixel> matte(region.width(), y1 - y0);
+    joined.read("matte", y0, y1, {plane_of(matte)});
+    const Image picture =
+        request.panorama ? decode_srgb(painted_rows(joined, y0, y1)) : guidance.base;
+    writer->write_rows({guidance, picture, matte}, y0 - region.y0);
+    run.progress.advance(y1 - y0);
+  }
+  writer->complete();
+  return writer;
 }
 
 std::optional<MatchWriter> write_match_file(const SheetRequest& request, const JoinedPieces& joined,
@@ -324,10 +385,13 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request,
 
   std::optional<GuidanceWriter> guidance =
       write_guidance_file(request, joined, notes, file_notes, out_folder, run);
+  std::optional<CompositingWriter> compositing =
+      write_compositing_file(request, joined, notes, out_folder, run);
   std::optional<MatchWriter> matches =
       write_match_file(request, joined, file_notes, out_folder, run);
   const auto commit = [&] {
     if (guidance) guidance->commit();
+    if (compositing) compositing->commit();
     if (matches) matches->commit();
   };
   if (!request.panorama) return commit();
@@ -342,14 +406,9 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request,
                         region.height(),
                         {colour.display, colour.profile, colour.device, colour.ink_limit_percent},
                         dots_per_inch, file_notes);
-  const auto encoded_rows = [&](int y0, int y1) {
-    Grid<glm::vec3> rows(region.width(), y1 - y0);
-    joined.read("panorama", y0, y1, {plane_of(rows)});
-    return rows;
-  };
   for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
     const int y1 = std::min(region.y1, y0 + band_rows);
-    panorama.write_rows(decode_srgb(encoded_rows(y0, y1)));
+    panorama.write_rows(decode_srgb(painted_rows(joined, y0, y1)));
     run.progress.advance(y1 - y0);
   }
   panorama.finish();
@@ -361,11 +420,7 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request,
   if (work.has_bytes(feature_legend_bytes))
     legend.features = swatches_from_text(work.read_bytes(feature_legend_bytes));
   const JoinedPieces around{work, joined.pieces, made};
-  const PaintedRows painted{made, [&](int y0, int y1) {
-                              Grid<glm::vec3> rows(made.width(), y1 - y0);
-                              around.read("panorama", y0, y1, {plane_of(rows)});
-                              return rows;
-                            }};
+  const PaintedRows painted{made, [&](int y0, int y1) { return painted_rows(around, y0, y1); }};
   const LazyValue<BareView> bare(
       [&] { return seen ? std::move(*seen) : make_bare_view(loaded, run.progress, run.cache); });
   write_layer_files(loaded, request, joined, painted, legend.luminance, bare, out_folder, run);

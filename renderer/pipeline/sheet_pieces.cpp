@@ -119,6 +119,7 @@ PixelRect region_of(const Scene& scene, const SheetRequest& request) {
 std::vector<std::string> products_of(const SheetRequest& request) {
   std::vector<std::string> products;
   if (!request.channels || !request.channels->empty()) products.emplace_back("guidance");
+  if (is_for_blender(request.channels)) products.emplace_back("matte");
   if (request.panorama) products.emplace_back("panorama");
   if (request.matches) products.emplace_back("matches");
   if (request.panorama && !request.layers.empty())

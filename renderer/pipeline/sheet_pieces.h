@@ -54,8 +54,7 @@ JobIdentity identify(const LoadedScene& loaded, const SheetRequest& request);
 
 // Memory of making a sheet: what stays as long as pieces are made, tiles that stages keep for their
 // neighbours, and the window of the stage at work, which gets the rest. Block and tile sizes that
-// follow from it do not change the result. Bytes, as far as they are known; a piece that is written
-// while the next is painted is small in comparison.
+// follow from it do not change the result.
 
 // Bytes, as far as they are known; a piece that is written while the next is painted is small in
 // comparison.

@@ -19,6 +19,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "renderer/graph/tile_store.h"
+#include "renderer/image/exr/compositing_file.h"
 #include "renderer/image/exr/exr_reader.h"
 #include "renderer/image/provenance.h"
 
@@ -27,6 +29,7 @@ namespace {
 
 constexpr std::size_t hash_chars = 32;
 constexpr std::size_t longest_head = 4096;
+constexpr const char* blender_choice = "blender";
 
 std::string head_of(const PieceKey& key) {
   return fmt::format("belvedere piece 1\njob {}\nproduct {}\nrectangle {} {} {} {}\n", key.job,
@@ -310,13 +313,15 @@ bool is_of(const GuidanceChannel& channel, const std::string& name) {
   for (const GuidanceChannel& channel : guidance_channels())
     if (has_sheet(channel)) names += (names.empty() ? "" : ", ") + std::string(channel.names[0]);
   throw Error(ErrorKind::usage, "--channels",
-              "\"" + name + "\" is not a channel of a picture's guidance", names + "; or none");
+              "\"" + name + "\" is not a channel of a picture's guidance",
+              names + fmt::format("; or none, or {}", blender_choice));
 }
 
 }  // namespace
 
 GuidanceChoice read_guidance_choice(const std::string& text) {
   if (text == "none") return std::vector<std::string>();
+  if (text == blender_choice) return std::vector<std::string>{text};
   std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -331,11 +336,17 @@ GuidanceChoice read_guidance_choice(const std::string& text) {
   return names;
 }
 
+bool is_for_blender(const GuidanceChoice& choice) {
+  return choice && choice->size() == 1 && choice->front() == blender_choice;
+}
+
 void keep_chosen(GuidanceBuffers& guidance, const GuidanceChoice& choice) {
   if (!choice) return;
+  const std::vector<std::string>& chosen =
+      is_for_blender(choice) ? compositing_channels() : *choice;
   for (const GuidanceChannel& channel : guidance_channels()) {
     const auto names_it = [&](const std::string& name) { return is_of(channel, name); };
-    if (std::none_of(choice->begin(), choice->end(), names_it))
+    if (std::none_of(chosen.begin(), chosen.end(), names_it))
       std::visit([&](auto member) { (guidance.*member) = {}; }, channel.member);
   }
 }

@@ -34,7 +34,6 @@ struct PieceLayout {
   std::uint64_t bytes = 0;  // of all planes
 };
 PieceLayout read_piece_layout(const std::string& path);
-// A piece of one plane of bytes that is not a picture, whole.
 void read_piece_rows(const std::string& path, const PieceKey& key, int y0, int y1, int origin_x,
                      const Planes& to);
 // A piece of one plane of bytes that is no picture, whole.
@@ -60,8 +59,10 @@ GuidanceBuffers unpack_guidance(const PackedGuidance& packed, const GuidanceBuff
 // of them. A vector is included whole: one of its components names it.
 using GuidanceChoice = std::optional<std::vector<std::string>>;
 
-// "Z,landcover.id", or "none" for no file. Error(usage) listing the available channels.
+// "Z,landcover.id", "none" for no file, or "blender" for the file of compositing_file.h.
+// Error(usage) listing the available channels.
 GuidanceChoice read_guidance_choice(const std::string& text);
+bool is_for_blender(const GuidanceChoice& choice);
 // Empties the channels that are not chosen.
 void keep_chosen(GuidanceBuffers& guidance, const GuidanceChoice& choice);
 

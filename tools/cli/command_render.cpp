@@ -117,9 +117,9 @@ Action add_job(CommandOptions& command, const char* footer, Wanted wanted) {
       "Resumes a run that was stopped in this folder; the files are the same as without the stop");
   command.add_force(options->force);
   command.add_option(
-      "--channels NAME,…|none", options->channels,
-      "Channels of guidance.exr, such as Z,landcover.id; none: no file. Default: all, "
-      "40 bytes per pixel");
+      "--channels NAME,…|none|blender", options->channels,
+      "Channels of guidance.exr, such as Z,landcover.id; none: no file; blender: named for "
+      "compositing programs, with masks by name. Default: all, 40 bytes per pixel");
   if (wanted == Wanted::picture)
     command.add_flag("--match", options->match,
                      "Also writes match.exr: which texel of which picture each pixel was copied "
@@ -150,6 +150,7 @@ Action add_render(CommandOptions& command) {
       "  belvedere render scenes/karwendel.toml --data ../data --set output.width=1200 --set "
       "output.height=550\n"
       "  belvedere render scenes/karwendel.toml --data ../data --channels Z,landcover.id\n"
+      "  belvedere render scenes/karwendel.toml --data ../data --channels blender\n"
       "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof\n"
       "  belvedere render --match --out demo",
       Wanted::picture);
