@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/vec2.hpp>
+#include <tuple>
+#include <utility>
 
 #include "renderer/features/paint_features.h"
 
@@ -15,16 +17,18 @@ constexpr int samples = 4;            // of a pixel, along x and y
 // Lays a kind over what covers a pixel; of three, the one that covers least is left out.
 void cover(MattePixel& pixel, int kind, float share) {
   const auto id = static_cast<std::uint16_t>(kind + 1);
-  for (std::uint8_t& old : pixel.share)
-    old = static_cast<std::uint8_t>(std::lround(static_cast<float>(old) * (1.F - share)));
+  const auto covered = [&](std::uint8_t old) {
+    return static_cast<std::uint8_t>(std::lround(static_cast<float>(old) * (1.F - share)));
+  };
+  pixel.share = {covered(pixel.share[0]), covered(pixel.share[1])};
+  const auto own = static_cast<std::uint8_t>(std::lround(255.F * share));
   std::size_t at = pixel.share[0] <= pixel.share[1] ? 0 : 1;
   for (std::size_t k = 0; k < 2; ++k)
     if (pixel.id[k] == id) at = k;
-  const float own = pixel.id[at] == id ? static_cast<float>(pixel.share[at]) : 0.F;
-  const float all = std::min(255.F, own + 255.F * share);
-  if (pixel.id[at] != id && all < static_cast<float>(pixel.share[at])) return;
-  pixel.id[at] = id;
-  pixel.share[at] = static_cast<std::uint8_t>(std::lround(all));
+  if (pixel.id[at] == id)
+    pixel.share[at] = static_cast<std::uint8_t>(std::min(255, pixel.share[at] + own));
+  else if (own >= pixel.share[at])
+    std::tie(pixel.id[at], pixel.share[at]) = std::pair(id, own);
 }
 
 // Corners of a face go around it.

@@ -285,6 +285,23 @@ bool asks_for(const SheetRequest& request, const std::string& product) {
   return std::find(products.begin(), products.end(), product) != products.end();
 }
 
+// Calls use(guidance, y0, y1) for one row of tiles of the guidance file after the other.
+template <class Use>
+void read_guidance_rows(const SheetRequest& request, const JoinedPieces& joined,
+                        const FileNotes& notes, const Run& run, Use use) {
+  const PixelRect region = joined.region;
+  run.progress.begin("writing guidance", region.height());
+  GuidanceBuffers like = sheet_guidance_like(parse_origin(notes));
+  keep_chosen(like, request.channels);
+  for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
+    const int y1 = std::min(region.y1, y0 + band_rows);
+    const PackedGuidance packed = blank_packed(like, region.width(), y1 - y0);
+    joined.read("guidance", y0, y1, packed.planes);
+    use(unpack_guidance(packed, like), y0, y1);
+    run.progress.advance(y1 - y0);
+  }
+}
+
 // Files under their temporary names, which are renamed together with the panorama's. Nothing where
 // they are not requested.
 std::optional<GuidanceWriter> write_guidance_file(const SheetRequest& request,
@@ -294,20 +311,14 @@ std::optional<GuidanceWriter> write_guidance_file(const SheetRequest& request,
                                                   const std::string& out_folder, const Run& run) {
   if (!asks_for(request, "guidance") || is_for_blender(request.channels)) return std::nullopt;
   const PixelRect region = joined.region;
-  run.progress.begin("writing guidance", region.height());
-  std::optional<GuidanceWriter> guidance(std::in_place, join(out_folder, "guidance.exr"),
-                                         region.width(), region.height(), file_notes);
-  GuidanceBuffers like = sheet_guidance_like(parse_origin(notes));
-  keep_chosen(like, request.channels);
-  for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
-    const int y1 = std::min(region.y1, y0 + band_rows);
-    const PackedGuidance packed = blank_packed(like, region.width(), y1 - y0);
-    joined.read("guidance", y0, y1, packed.planes);
-    guidance->write_rows(unpack_guidance(packed, like), 0, y1 - y0, y0 - region.y0);
-    run.progress.advance(y1 - y0);
-  }
-  guidance->complete();
-  return guidance;
+  std::optional<GuidanceWriter> writer(std::in_place, join(out_folder, "guidance.exr"),
+                                       region.width(), region.height(), file_notes);
+  read_guidance_rows(request, joined, notes, run,
+                     [&](const GuidanceBuffers& guidance, int y0, int y1) {
+                       writer->write_rows(guidance, 0, y1 - y0, y0 - region.y0);
+                     });
+  writer->complete();
+  return writer;
 }
 
 // The rows of a painting in encoded sRGB.
@@ -317,7 +328,7 @@ Grid<glm::vec3> painted_rows(const JoinedPieces& joined, int y0, int y1) {
   return rows;
 }
 
-// The same for compositing programs, with the painting where it is made.
+// Guidance for compositing programs, with the painting where it is made.
 std::optional<CompositingWriter> write_compositing_file(const SheetRequest& request,
                                                         const JoinedPieces& joined,
                                                         const FileNotes& notes,
@@ -325,26 +336,19 @@ std::optional<CompositingWriter> write_compositing_file(const SheetRequest& requ
                                                         const Run& run) {
   if (!is_for_blender(request.channels)) return std::nullopt;
   const PixelRect region = joined.region;
-  run.progress.begin("writing guidance", region.height());
   std::vector<std::string> features;
   std::istringstream names(joined.work.read_bytes(matte_bytes));
   for (std::string name; std::getline(names, name);) features.push_back(name);
   std::optional<CompositingWriter> writer(std::in_place, join(out_folder, "guidance.exr"),
                                           region.width(), region.height(), features, notes);
-  GuidanceBuffers like = sheet_guidance_like(parse_origin(notes));
-  keep_chosen(like, request.channels);
-  for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
-    const int y1 = std::min(region.y1, y0 + band_rows);
-    const PackedGuidance packed = blank_packed(like, region.width(), y1 - y0);
-    joined.read("guidance", y0, y1, packed.planes);
-    const GuidanceBuffers guidance = unpack_guidance(packed, like);
-    Grid<MattePixel> matte(region.width(), y1 - y0);
-    joined.read("matte", y0, y1, {plane_of(matte)});
-    const Image picture =
-        request.panorama ? decode_srgb(painted_rows(joined, y0, y1)) : guidance.base;
-    writer->write_rows({guidance, picture, matte}, y0 - region.y0);
-    run.progress.advance(y1 - y0);
-  }
+  read_guidance_rows(
+      request, joined, notes, run, [&](const GuidanceBuffers& guidance, int y0, int y1) {
+        Grid<MattePixel> matte(region.width(), y1 - y0);
+        joined.read("matte", y0, y1, {plane_of(matte)});
+        const Image picture =
+            request.panorama ? decode_srgb(painted_rows(joined, y0, y1)) : guidance.base;
+        writer->write_rows({guidance, picture, matte}, y0 - region.y0);
+      });
   writer->complete();
   return writer;
 }
