@@ -64,6 +64,7 @@ float share_of(const DrawnHouse& house, int x, int y) {
 Grid<MattePixel> make_feature_matte(const DrawnFeatures& features, const Grid<float>& depth_m,
                                     PixelRect rect, const Grid<std::int16_t>* crest_rows) {
   Grid<MattePixel> matte(rect.width(), rect.height());
+  if (features.empty()) return matte;
   visit_coats(features, depth_m, rect, crest_rows, [&](int kind, int x, int y, float share) {
     cover(matte(x - rect.x0, y - rect.y0), kind, share);
   });

@@ -44,7 +44,7 @@ glm::vec4 land_cover_ranks(const Rows& rows, const Ids&, std::size_t i) {
 glm::vec4 feature_ranks(const Rows& rows, const Ids& ids, std::size_t i) {
   const MattePixel& pixel = rows.of_feature[i];
   const auto rank = [&](std::size_t k) {
-    return pixel.id[k] == 0 ? glm::vec2(0.F)
+    return pixel.share[k] == 0 ? glm::vec2(0.F)
                             : glm::vec2(ids.at(pixel.id[k] - 1U), pixel.share[k] / 255.F);
   };
   const std::size_t first = pixel.share[0] >= pixel.share[1] ? 0 : 1;

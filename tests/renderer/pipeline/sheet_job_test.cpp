@@ -16,6 +16,7 @@
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/stages/picture_layers.h"
 #include "tests/files.h"
+#include "tests/grids.h"
 #include "tests/shared_cache.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/clique_model.h"
@@ -236,6 +237,37 @@ TEST_F(SheetJob, GuidanceHoldsTheChannelsThatWereAskedFor) {
                                      {.panorama = false, .channels = std::vector<std::string>()});
                                }),
               HasSubstr("--channels"));
+}
+
+// Passes for compositing programs are the values of the other guidance, with the finished painting.
+TEST_F(SheetJob, PassesForBlenderAreTheSameInPartsAndPieces) {
+  const PixelRect part{990, 40, 1060, 110};
+  const GuidanceChoice blender = {{"blender"}};
+  render(scene(), folder_ / "part", shared(), {.channels = blender, .part = part});
+  const std::string file = folder_ / "part/guidance.exr";
+  const GuidanceBuffers all = read_guidance(whole() + "/guidance.exr");
+  const Grid<float> depth_m = read_channel(file, "ViewLayer.Depth.Z");
+  for (const auto [x, y] : test::cells(depth_m))
+    ASSERT_EQ(depth_m(x, y), std::min(all.depth_m(part.x0 + x, part.y0 + y), 1e10F));
+  EXPECT_EQ(read_channel(file, "ViewLayer.AO.R"), part_of(all.sky_view, part));
+  EXPECT_EQ(read_channel(file, "ViewLayer.Combined.G"),
+            part_of(read_channel(whole() + "/panorama.exr", "G"), part));
+  EXPECT_EQ(test::read_bytes(folder_ / "part/panorama.tif").empty(), false);
+
+  render(scene(), folder_ / "pieces", shared(1),
+         {.channels = blender, .part = part, .piece_px = 64, .block_px = 64});
+  expect_same_files(folder_ / "part", folder_ / "pieces");
+  const SheetRequest request{.channels = blender, .part = part, .piece_px = 64};
+  plan_sheet(scene(), folder_ / "many", shared(), request);
+  for (const int one : {2, 1}) make_part(scene(), folder_ / "many", one, 2, shared(), request);
+  join_parts(scene(), folder_ / "many", 2, folder_ / "many", shared(), request);
+  EXPECT_EQ(test::read_bytes(folder_ / "many/guidance.exr"), test::read_bytes(file));
+
+  render(scene(), folder_ / "alone", shared(),
+         {.panorama = false, .channels = blender, .part = part});
+  EXPECT_EQ(read_channel(folder_ / "alone/guidance.exr", "ViewLayer.Combined.G"),
+            part_of(read_channel(whole() + "/guidance.exr", "base.G"), part))
+      << "without a painting, the picture below it";
 }
 
 // The texels that pixels were copied from, as in the sheet's stages, whatever the part and the

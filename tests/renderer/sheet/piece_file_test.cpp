@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "base/guidance_buffers.h"
+#include "renderer/image/exr/compositing_file.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/stages/lit_picture.h"
 #include "tests/files.h"
@@ -141,11 +143,29 @@ using testing::HasSubstr;
 TEST(GuidanceChoice, NamesChannelsOfASheet) {
   EXPECT_THAT(*read_guidance_choice("Z,landcover.id"), ElementsAre("Z", "landcover.id"));
   EXPECT_TRUE(read_guidance_choice("none")->empty());
-  for (const char* wrong : {"", "Z,", "Z,,N.X", "depth", "landcover", "none,Z", "z"}) {
+  for (const char* wrong : {"", "Z,", "Z,,N.X", "depth", "landcover", "none,Z", "blender,Z", "z"}) {
     const std::string message = test::usage_error([&] { read_guidance_choice(wrong); });
     EXPECT_THAT(message, HasSubstr("landcover.id")) << wrong;
-    EXPECT_THAT(message, HasSubstr("none")) << wrong;
+    EXPECT_THAT(message, HasSubstr("none, or blender")) << wrong;
   }
+}
+
+TEST(GuidanceChoice, ForBlenderKeepsWhatItsPassesAreMadeOf) {
+  const GuidanceChoice choice = read_guidance_choice("blender");
+  EXPECT_TRUE(is_for_blender(choice));
+  EXPECT_FALSE(is_for_blender(std::nullopt) || is_for_blender(read_guidance_choice("none")) ||
+               is_for_blender(read_guidance_choice("Z")));
+  GuidanceBuffers guidance = sheet_guidance_like({});
+  keep_chosen(guidance, choice);
+  for (const GuidanceChannel& channel : guidance_channels())
+    std::visit(
+        [&](auto member) {
+          const std::vector<std::string>& made_of = compositing_channels();
+          EXPECT_EQ(!(guidance.*member).empty(),
+                    std::count(made_of.begin(), made_of.end(), channel.names[0]) == 1)
+              << channel.names[0];
+        },
+        channel.member);
 }
 
 TEST(GuidanceChoice, KeepsWholeVectorsAndNothingElse) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "renderer/image/exr/cryptomatte.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/stages/picture_layers.h"
@@ -134,6 +135,33 @@ TEST_F(SceneFeaturesInPictures, AnyPartShowsTheWholeAndFarFromThemNothingChanges
   }
   EXPECT_GT(changed, 300U);
   EXPECT_EQ(changed_far, 0U);
+}
+
+// Compositing programs select features by the name of their kind, also without the painting.
+TEST_F(SceneFeaturesInPictures, AreMasksForBlender) {
+  write("roads.geojson", line("motorway", "[682500, 5243000], [685500, 5244500]") + "," +
+                             line("lift", "[683000, 5242000], [684500, 5243500]"));
+  const auto mask = [&](const std::string& name, SheetRequest request) {
+    request.channels = {{"blender"}};
+    render(scene(block), folder_ / name, {.cache = test::shared_cache()}, request);
+    const std::string file = folder_ / (name + "/guidance.exr");
+    return std::pair(read_channel(file, "ViewLayer.CryptoFeature00.r"),
+                     read_channel(file, "ViewLayer.CryptoFeature00.g"));
+  };
+  const auto [id, share] = mask("whole", {.panorama = false});
+  double motorway = 0.0;
+  double lift = 0.0;
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    EXPECT_EQ(id[i] == 0.F, share[i] == 0.F);
+    if (id[i] == cryptomatte_id("motorway")) motorway += share[i];
+    if (id[i] == cryptomatte_id("lift")) lift += share[i];
+  }
+  EXPECT_GT(motorway, 50.0);
+  EXPECT_GT(lift, 10.0);
+  const PixelRect part{70, 50, 190, 141};
+  const auto [part_id, part_share] = mask("part", {.part = part, .piece_px = 64});
+  EXPECT_EQ(part_id, part_of(id, part));
+  EXPECT_EQ(part_share, part_of(share, part));
 }
 
 // Means of the composite of the layers, which must equal the panorama.
