@@ -14,8 +14,6 @@
 namespace belvedere {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 // Forest in front, sky that shows a little terrain, rock that shows more sky than ground; in rows
 // that repeat.
 struct Passes {
@@ -25,7 +23,7 @@ struct Passes {
     guidance.position_m = guidance.normal = Grid<glm::vec3>(3, height);
     guidance.land_cover = Grid<LandCoverClass>(3, height);
     for (int y = 0; y < height; ++y) {
-      const float depth_m[] = {100.F, infinity, 50.F};
+      const float depth_m[] = {100.F, std::numeric_limits<float>::infinity(), 50.F};
       const float coverage[] = {1.F, 0.25F, 0.375F};
       const LandCoverClass land_cover[] = {LandCoverClass::forest, LandCoverClass::sky,
                                            LandCoverClass::rock};
