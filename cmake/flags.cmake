@@ -9,7 +9,9 @@ target_compile_options(belvedere_flags INTERFACE
   # GCC 12 sees copies that overlap or overflow in its own std::string once it is inlined (GCC bugs 105329, 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-stringop-overflow>
   # The same bits everywhere: no fused multiply-add unless written, no fast-math; a plain x86-64-v2 machine is enough.
-  -ffp-contract=off -march=x86-64-v2 -mtune=generic -pthread)
+  -ffp-contract=off -march=x86-64-v2 -mtune=generic -pthread
+  # The same bytes wherever it is built: no names of folders of this machine.
+  -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
 if(BELVEDERE_SANITIZE)
   target_compile_options(belvedere_flags INTERFACE -fsanitize=${BELVEDERE_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(belvedere_flags INTERFACE -fsanitize=${BELVEDERE_SANITIZE})

@@ -25,7 +25,7 @@ install(FILES ${share}/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash
 install(FILES ${share}/completion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d RENAME belvedere.fish COMPONENT program)
 install(FILES ${share}/completion.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _belvedere COMPONENT program)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/belvedere COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.geojson" REGEX "/masks/[^/]*[.]png$")
-install(FILES docs/scene.md docs/scene.schema.json README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES docs/scene.md docs/scene.schema.json README.md CHANGELOG.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 # The fonts of the built-in style of names, with their licences (SIL Open Font License): found beside the program on any machine.
 set(garamond 08-Regular 08-Italic 12-Regular 12-Italic)
@@ -48,5 +48,6 @@ install(DIRECTORY base terrain texture renderer DESTINATION ${CMAKE_INSTALL_INCL
 configure_package_config_file(cmake/belvedereConfig.cmake.in belvedereConfig.cmake INSTALL_DESTINATION ${package_folder})
 # Until 1.0 every minor version may change interfaces.
 write_basic_package_version_file(belvedereConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/belvedere-dev RENAME copyright COMPONENT development)
 install(FILES ${CMAKE_BINARY_DIR}/belvedereConfig.cmake ${CMAKE_BINARY_DIR}/belvedereConfigVersion.cmake cmake/libraries.cmake
   DESTINATION ${package_folder} COMPONENT development)

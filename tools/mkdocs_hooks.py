@@ -1,11 +1,11 @@
-"""Hooks of mkdocs (mkdocs.yml, tools/docs): CONTRIBUTING.md and CHANGELOG.md are pages too, and links between them and docs/ work."""
+"""Hooks of mkdocs (mkdocs.yml, tools/docs): CONTRIBUTING.md, CHANGELOG.md and SECURITY.md are pages too, and links between them and docs/ work."""
 import pathlib
 import re
 
 from mkdocs.structure.files import File
 
 root = pathlib.Path(__file__).resolve().parent.parent
-further = ("CONTRIBUTING.md", "CHANGELOG.md")
+further = ("CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md")
 
 
 def on_files(files, config):

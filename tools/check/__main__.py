@@ -5,6 +5,7 @@
   draws     one random draw per statement
   names     what an anonymous namespace names is named once in its folder
   headers   no header is too large; headers HEADER: through which others it is read
+  parts     cmake/parts.csv names every part of others that CMake looks for, with its licence
   links     links of README.md, CONTRIBUTING.md, CHANGELOG.md and docs/*.md, and the paths that they name
   words     no retired word, one spelling
   examples  commands, keys and TOML blocks of the pages; examples PROGRAM: another than build/release/belvedere
@@ -16,6 +17,7 @@ import sys
 sys.dont_write_bytecode = True  # checks leave nothing in the checkout
 import examples
 import pages
+import parts
 import sources
 import tests
 
@@ -25,6 +27,7 @@ checks = {
     "tests": tests.check_tests,
     "draws": sources.check_draws,
     "names": sources.check_names,
+    "parts": parts.check_parts,
     "links": pages.check_links,
     "words": pages.check_words,
     "headers": sources.check_headers,

@@ -4,7 +4,7 @@ import re
 
 import tree
 
-pages = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", *tree.docs]
+pages = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", *tree.docs]
 
 # ---- Every relative link, image and #anchor has a target, and so has every path of the repository that the text names as code, such as
 # `tools/test`; CHANGELOG.md may name what is gone. docs/index.md links every page of docs, README leads to all, mkdocs.yml lists all.
