@@ -44,7 +44,7 @@ install(TARGETS belvedere_base belvedere_terrain belvedere_texture belvedere_ren
 install(EXPORT belvedere NAMESPACE belvedere:: FILE belvedereTargets.cmake DESTINATION ${package_folder} COMPONENT development)
 # As in the project: #include "terrain/io/dem.h". A folder's headers for itself alone are not among them.
 install(DIRECTORY base terrain texture renderer DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/belvedere COMPONENT development
-  FILES_MATCHING PATTERN "*.h" PATTERN gdal_files.h EXCLUDE PATTERN raster_open.h EXCLUDE PATTERN vector_layers.h EXCLUDE PATTERN lcms.h EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN gdal_files.h EXCLUDE PATTERN embree.h EXCLUDE PATTERN raster_open.h EXCLUDE PATTERN vector_layers.h EXCLUDE PATTERN lcms.h EXCLUDE)
 configure_package_config_file(cmake/belvedereConfig.cmake.in belvedereConfig.cmake INSTALL_DESTINATION ${package_folder})
 # Until 1.0 every minor version may change interfaces.
 write_basic_package_version_file(belvedereConfigVersion.cmake COMPATIBILITY SameMinorVersion)

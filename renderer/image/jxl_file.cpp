@@ -170,19 +170,23 @@ class JxlReader {
     in_box_ = false;
     exif_.resize(exif_.size() - JxlDecoderReleaseBoxBuffer(decoder_.get()));
   }
+  // Until libjxl 0.9 its functions of profiles take a pixel format as well, which they ignore.
+  template <class Function, class... More>
+  bool has_profile(Function* get, More... more) {
+#if JPEGXL_NUMERIC_VERSION < JPEGXL_COMPUTE_NUMERIC_VERSION(0, 9, 0)
+    return get(decoder_.get(), nullptr, JXL_COLOR_PROFILE_TARGET_ORIGINAL, more...) ==
+           JXL_DEC_SUCCESS;
+#else
+    return get(decoder_.get(), JXL_COLOR_PROFILE_TARGET_ORIGINAL, more...) == JXL_DEC_SUCCESS;
+#endif
+  }
   void read_profile() {
     std::size_t size = 0;
-    if (JxlDecoderGetICCProfileSize(decoder_.get(), nullptr, JXL_COLOR_PROFILE_TARGET_ORIGINAL,
-                                    &size) != JXL_DEC_SUCCESS)
-      return;
+    if (!has_profile(JxlDecoderGetICCProfileSize, &size)) return;
     icc_.resize(size);
-    if (JxlDecoderGetColorAsICCProfile(decoder_.get(), nullptr, JXL_COLOR_PROFILE_TARGET_ORIGINAL,
-                                       icc_.data(), size) != JXL_DEC_SUCCESS)
-      icc_.clear();
+    if (!has_profile(JxlDecoderGetColorAsICCProfile, icc_.data(), size)) icc_.clear();
     // For colours that the file specifies by name, the library creates a profile.
-    if (JxlDecoderGetColorAsEncodedProfile(
-            decoder_.get(), nullptr, JXL_COLOR_PROFILE_TARGET_ORIGINAL, nullptr) == JXL_DEC_SUCCESS)
-      icc_.clear();
+    if (has_profile(JxlDecoderGetColorAsEncodedProfile, nullptr)) icc_.clear();
   }
 
   std::string path_;

@@ -5,7 +5,10 @@
 // headers only need a declaration.
 #define POINTERHOLDER_TRANSITION 4
 #define JSON_HH
-class JSON;
+class JSON {
+ public:
+  class Writer;
+};
 #include <fmt/chrono.h>
 #include <fmt/core.h>
 #include <sys/stat.h>

@@ -1,6 +1,5 @@
 #include "renderer/trace/tracer.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/core.h>
 #include <unistd.h>
 #include <xmmintrin.h>
@@ -19,6 +18,8 @@
 #include "base/error.h"
 #include "base/instruction_set.h"
 #include "base/parallel.h"
+#include "renderer/trace/embree.h"
+#include "renderer/trace/traced_part.h"
 
 namespace belvedere {
 namespace {
@@ -184,8 +185,7 @@ bool Tracer::State::resolve(const Ray& ray, unsigned geometry, unsigned primitiv
 void Tracer::State::trace_on(const Ray& ray, float from, Hit& hit) const {
   const glm::vec3 o(ray.origin - origin);
   const glm::vec3 d(ray.direction);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  EmbreeQuery query(scene, false);
   for (int tries = 0; tries < 16; ++tries) {
     // Two float steps beyond the last facet.
     from = std::nextafter(std::nextafter(from, infinity), infinity);
@@ -200,7 +200,7 @@ void Tracer::State::trace_on(const Ray& ray, float from, Hit& hit) const {
     r.ray.tfar = infinity;
     r.ray.mask = ~0U;
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene, &context, &r);
+    query.intersect(r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID ||
         resolve(ray, r.hit.geomID, r.hit.primID, {r.hit.u, r.hit.v}, hit))
       return;
@@ -238,13 +238,6 @@ bool set_lane(Packet& packet, int lane, const Ray* ray, const glm::dvec3& origin
   packet.dir_z[lane] = usable ? d.z : 1.F;
   packet.tfar[lane] = usable ? reach : -1.F;
   return usable;
-}
-
-RTCIntersectContext coherent_context() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
 }
 
 std::string describe(RTCDevice device, const std::string& instructions, bool pinned) {
@@ -315,7 +308,7 @@ std::size_t Tracer::memory_bytes() const {
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
   const FlushDenormals flush;
-  RTCIntersectContext context = coherent_context();
+  EmbreeQuery query(state_->scene, true);
   RTCRayHit16 packet;
   begin_packet(packet.ray);
   for (std::size_t first = 0; first < rays.size(); first += bundle) {
@@ -328,7 +321,7 @@ void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
               : 0;
       packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect16(valid.data(), state_->scene, &context, &packet);
+    query.intersect(valid.data(), packet);
     for (int k = 0; k < count; ++k) {
       Hit& hit = hits[first + k];
       hit = Hit{};
@@ -345,7 +338,7 @@ void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
 void Tracer::occluded(std::span<const Ray> rays, double reach_m,
                       std::span<std::uint8_t> blocked) const {
   const FlushDenormals flush;
-  RTCIntersectContext context = coherent_context();
+  EmbreeQuery query(state_->scene, true);
   RTCRay16 packet;
   begin_packet(packet);
   for (std::size_t first = 0; first < rays.size(); first += bundle) {
@@ -357,7 +350,7 @@ void Tracer::occluded(std::span<const Ray> rays, double reach_m,
                      ? -1
                      : 0;
     }
-    rtcOccluded16(valid.data(), state_->scene, &context, &packet);
+    query.occluded(valid.data(), packet);
     // Embree marks blocked rays with tfar = -infinity.
     for (int k = 0; k < count; ++k)
       blocked[first + k] = valid[k] != 0 && packet.tfar[k] < 0.F ? 1 : 0;

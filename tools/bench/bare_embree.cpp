@@ -1,10 +1,11 @@
 #include "tools/bench/bare_embree.h"
 
-#include <embree3/rtcore.h>
 #include <xmmintrin.h>
 
 #include <algorithm>
 #include <limits>
+
+#include "renderer/trace/embree.h"
 
 namespace belvedere::bench {
 
@@ -22,13 +23,6 @@ struct PacketHits {
 };
 
 namespace {
-
-RTCIntersectContext coherent() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
-}
 
 void fill(RTCRay16& out, const PacketRays& in, float reach) {
   std::copy_n(in.org_x, packet_size, out.org_x);
@@ -112,14 +106,14 @@ std::size_t BareEmbree::packets() const { return state_->rays.size(); }
 
 void BareEmbree::intersect(std::size_t first, std::size_t last) {
   _mm_setcsr(_mm_getcsr() | 0x8040U);  // FTZ and DAZ
-  RTCIntersectContext context = coherent();
+  EmbreeQuery query(state_->scene, true);
   alignas(64) int valid[packet_size];
   std::fill_n(valid, packet_size, -1);
   for (std::size_t i = first; i < last; ++i) {
     RTCRayHit16 packet;
     fill(packet.ray, state_->rays[i], state_->reach);
     std::fill_n(packet.hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
-    rtcIntersect16(valid, state_->scene, &context, &packet);
+    query.intersect(valid, packet);
     PacketHits& out = state_->hits[i];
     for (std::size_t k = 0; k < packet_size; ++k) {
       out.distance[k] = packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID ? -1.F : packet.ray.tfar[k];
@@ -132,13 +126,13 @@ void BareEmbree::intersect(std::size_t first, std::size_t last) {
 
 void BareEmbree::occluded(std::size_t first, std::size_t last) {
   _mm_setcsr(_mm_getcsr() | 0x8040U);
-  RTCIntersectContext context = coherent();
+  EmbreeQuery query(state_->scene, true);
   alignas(64) int valid[packet_size];
   std::fill_n(valid, packet_size, -1);
   for (std::size_t i = first; i < last; ++i) {
     RTCRay16 packet;
     fill(packet, state_->rays[i], state_->reach);
-    rtcOccluded16(valid, state_->scene, &context, &packet);
+    query.occluded(valid, packet);
     for (std::size_t k = 0; k < packet_size; ++k)
       state_->hits[i].distance[k] = packet.tfar[k] < 0.F ? 1.F : -1.F;
   }
