@@ -85,10 +85,4 @@ Grid<MattePixel> make_feature_matte(const DrawnFeatures& features, const Grid<fl
   return matte;
 }
 
-std::vector<std::string> matte_names(const DrawnFeatures& features) {
-  std::vector<std::string> names;
-  for (const FeatureKind& kind : features.style.kinds) names.push_back(kind.name);
-  return names;
-}
-
 }  // namespace belvedere

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "base/guidance_buffers.h"
 #include "renderer/features/drawn_features.h"
@@ -15,7 +13,5 @@ namespace belvedere {
 // rectangle: distance from the eye; `crest_rows` as in FeatureGround.
 Grid<MattePixel> make_feature_matte(const DrawnFeatures& features, const Grid<float>& depth_m,
                                     PixelRect rect, const Grid<std::int16_t>* crest_rows = nullptr);
-// The names of the ids, from 1 on.
-std::vector<std::string> matte_names(const DrawnFeatures& features);
 
 }  // namespace belvedere

@@ -1,7 +1,6 @@
 #include "renderer/pipeline/sheet_job.h"
 
 #include <fmt/core.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
@@ -148,8 +147,11 @@ std::optional<BareView> make_pieces(const LoadedScene& loaded, const SheetReques
   const PictureStages picture =
       add_picture_stages(sheet.graph, sheet.ground, copied ? &plan : nullptr, features);
 
-  if (for_blender)
-    work.keep_bytes(matte_bytes, fmt::format("{}", fmt::join(matte_names(features), "\n")));
+  if (for_blender) {
+    std::string names;
+    for (const FeatureKind& kind : features.style.kinds) names += kind.name + "\n";
+    work.keep_bytes(matte_bytes, names);
+  }
   if (request.matches) work.keep_bytes(matched_bytes, to_note(pictures_of(plan)));
   const std::vector<std::string> products = products_of(request);
   const auto makes = [&](const char* product) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image/exr/cryptomatte.h"
+#include "renderer/image/exr/compositing_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/paint/composite.h"
 #include "tests/paths.h"

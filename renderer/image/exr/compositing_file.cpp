@@ -3,13 +3,57 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <bit>
 #include <glm/vec4.hpp>
-#include <string_view>
 #include <utility>
 
-#include "renderer/image/exr/cryptomatte.h"
+#include "base/text/json.h"
 
 namespace belvedere {
+namespace {
+
+// Up to four characters, the first in the lowest byte.
+std::uint32_t mixed_block(std::string_view block) {
+  std::uint32_t k = 0;
+  for (std::size_t i = 0; i < block.size(); ++i)
+    k |= static_cast<std::uint32_t>(static_cast<unsigned char>(block[i])) << (8 * i);
+  return std::rotl(k * 0xcc9e2d51U, 15) * 0x1b873593U;
+}
+
+}  // namespace
+
+std::uint32_t murmur_hash3(std::string_view text) {
+  std::uint32_t h = 0;
+  for (std::size_t i = 0; i < text.size(); i += 4) {
+    h ^= mixed_block(text.substr(i, 4));
+    if (i + 4 <= text.size()) h = std::rotl(h, 13) * 5U + 0xe6546b64U;
+  }
+  h ^= static_cast<std::uint32_t>(text.size());
+  h = (h ^ (h >> 16)) * 0x85ebca6bU;
+  h = (h ^ (h >> 13)) * 0xc2b2ae35U;
+  return h ^ (h >> 16);
+}
+
+float cryptomatte_id(std::string_view name) {
+  std::uint32_t bits = murmur_hash3(name);
+  const std::uint32_t exponent = bits >> 23 & 255U;
+  if (exponent == 0U || exponent == 255U) bits ^= 1U << 23;
+  return std::bit_cast<float>(bits);
+}
+
+FileNotes cryptomatte_notes(const std::string& layer, const std::vector<std::string>& names) {
+  std::string manifest;
+  for (const std::string& name : names)
+    manifest += fmt::format("{}{}:\"{:08x}\"", manifest.empty() ? "" : ",", json_quoted(name),
+                            std::bit_cast<std::uint32_t>(cryptomatte_id(name)));
+  const std::string key =
+      "cryptomatte/" + fmt::format("{:08x}", murmur_hash3(layer)).substr(0, 7) + "/";
+  return {{key + "name", layer},
+          {key + "hash", "MurmurHash3_32"},
+          {key + "conversion", "uint32_to_float32"},
+          {key + "manifest", "{" + manifest + "}"}};
+}
+
 namespace {
 
 using Ids = std::vector<float>;
@@ -45,7 +89,7 @@ glm::vec4 feature_ranks(const Rows& rows, const Ids& ids, std::size_t i) {
   const MattePixel& pixel = rows.of_feature[i];
   const auto rank = [&](std::size_t k) {
     return pixel.share[k] == 0 ? glm::vec2(0.F)
-                            : glm::vec2(ids.at(pixel.id[k] - 1U), pixel.share[k] / 255.F);
+                               : glm::vec2(ids.at(pixel.id[k] - 1U), pixel.share[k] / 255.F);
   };
   const std::size_t first = pixel.share[0] >= pixel.share[1] ? 0 : 1;
   return {rank(first), rank(1 - first)};
@@ -94,15 +138,18 @@ constexpr Pass passes[] = {
     {"ViewLayer.CryptoLandCover00", "rgba", float32, land_cover_ranks},
     {"ViewLayer.CryptoFeature00", "rgba", float32, feature_ranks}};
 
+// Each letter of each pass is a channel.
 struct PassChannel {
   const Pass* pass;
   int component;
 };
-std::vector<PassChannel> pass_channels() {
-  std::vector<PassChannel> channels;
-  for (const Pass& pass : passes)
-    for (std::size_t k = 0; k < pass.letters.size(); ++k)
-      channels.push_back({&pass, static_cast<int>(k)});
+const std::vector<PassChannel>& pass_channels() {
+  static const std::vector<PassChannel> channels = [] {
+    std::vector<PassChannel> list;
+    for (const Pass& pass : passes)
+      for (int k = 0; k < static_cast<int>(pass.letters.size()); ++k) list.push_back({&pass, k});
+    return list;
+  }();
   return channels;
 }
 
@@ -110,7 +157,8 @@ PartSpec compositing_part() {
   PartSpec part{"passes", {}};
   for (const auto& [pass, k] : pass_channels())
     part.channels.push_back(
-        {fmt::format("{}.{}", pass->name, pass->letters[static_cast<std::size_t>(k)]), pass->type});
+        {fmt::format("{}.{}", pass->name, pass->letters.substr(static_cast<std::size_t>(k), 1)),
+         pass->type});
   return part;
 }
 
@@ -137,10 +185,9 @@ CompositingWriter::CompositingWriter(const std::string& path, int width, int hei
 }
 
 void CompositingWriter::write_rows(const CompositingRows& rows, int y0) {
-  const std::vector<PassChannel> channels = pass_channels();
   writer_.write_rows(
       0, y0, rows.picture.height(), [&](std::size_t channel, int x, int y, int count, float* out) {
-        const auto& [pass, component] = channels[channel];
+        const auto& [pass, component] = pass_channels()[channel];
         const std::size_t from = rows.picture.index(x, y - y0);
         for (int i = 0; i < count; ++i)
           out[i] = pass->value(rows, feature_ids_, from + static_cast<std::size_t>(i))[component];

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "renderer/image/exr/cryptomatte.h"
+#include "renderer/image/exr/compositing_file.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/stages/picture_layers.h"
