@@ -18,7 +18,7 @@ struct Provenance {
       inputs;  // file name as the scene writes it → hash_file of its bytes
 };
 
-// "0.2.0"
+// "0.3.0"
 std::string program_version();
 // The third-party libraries the program was built with, "Embree 3.13.5, …".
 std::string library_versions();

@@ -53,7 +53,7 @@ struct HttpRequest {
   int silence_s = 30;                     // timeout without data, s
   int answer_s = 600;                     // timeout of the whole response, s
   std::uint64_t max_bytes = 1ULL << 30U;  // longer responses are rejected; below 2³¹
-  std::string agent = {};                 // user agent: "Belvedere/0.2.0"
+  std::string agent = {};                 // user agent: "Belvedere/0.3.0"
   std::function<bool()> go_on = {};       // called a few times per second; false cancels
 };
 

@@ -20,7 +20,7 @@ using ::testing::Not;
 using ::testing::SizeIs;
 
 SceneLock sample() {
-  return {.program = "0.2.0",
+  return {.program = "0.3.0",
           .scene = "0123",
           .width = 800,
           .height = 367,
@@ -37,7 +37,7 @@ SceneLock sample() {
 TEST(SceneLock, WrittenLocksReadBackAndAreSorted) {
   const std::string text = write_lock(sample());
   const SceneLock read = parse_lock(text, "x.lock");
-  EXPECT_EQ(read.program, "0.2.0");
+  EXPECT_EQ(read.program, "0.3.0");
   EXPECT_EQ(read.scene, "0123");
   EXPECT_EQ(read.width, 800);
   EXPECT_EQ(read.height, 367);
