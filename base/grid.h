@@ -35,6 +35,18 @@ class Grid {
   Grid& operator=(Grid&&) noexcept = default;
   ~Grid() = default;
 
+  // A grid of values that lie in memory of somebody else, which must outlive it: for functions that
+  // read it. Nothing is copied; a copy of the grid has memory of its own.
+  static Grid lent(const T* values, int width, int height) {
+    static_assert(plain);
+    Grid out;
+    out.width_ = width;
+    out.height_ = height;
+    const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    if (size > 0) out.values_ = Values(size, ZeroedAllocator<T>(const_cast<T*>(values)));
+    return out;
+  }
+
   int width() const { return width_; }
   int height() const { return height_; }
   std::size_t size() const { return values_.size(); }

@@ -26,21 +26,31 @@ void return_freed_memory();
 extern std::atomic<void (*)(std::ptrdiff_t bytes)> zeroed_memory_observer;
 
 // Allocator for std::vector: a default-constructed element of a type without initializers is left
-// as the memory is, which is zero.
+// as the memory is, which is zero. A vector of `lent` memory, which must hold all its elements and
+// outlive it, has them as they are and never frees them; moving it moves the loan, copies have
+// memory of their own.
 template <class T>
-struct ZeroedAllocator {
+class ZeroedAllocator {
+ public:
   using value_type = T;
+  using propagate_on_container_move_assignment = std::true_type;
+  using propagate_on_container_swap = std::true_type;
 
   ZeroedAllocator() = default;
+  explicit ZeroedAllocator(T* lent) : lent_(lent) {}
   template <class U>
   explicit(false) ZeroedAllocator(const ZeroedAllocator<U>&) {}
 
   T* allocate(std::size_t count) {
     static_assert(alignof(T) <= alignof(std::max_align_t));
+    if (lent_ != nullptr) return lent_;
     if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
     return static_cast<T*>(allocate_zeroed(count * sizeof(T)));
   }
-  void deallocate(T* memory, std::size_t count) noexcept { free_zeroed(memory, count * sizeof(T)); }
+  void deallocate(T* memory, std::size_t count) noexcept {
+    if (memory != lent_) free_zeroed(memory, count * sizeof(T));
+  }
+  ZeroedAllocator select_on_container_copy_construction() const { return {}; }
 
   template <class U, class... Arguments>
   void construct(U* position, Arguments&&... arguments) {
@@ -49,6 +59,9 @@ struct ZeroedAllocator {
   }
 
   bool operator==(const ZeroedAllocator&) const = default;
+
+ private:
+  T* lent_ = nullptr;
 };
 
 // Copies and fills of large blocks by all threads: the first write to a page of new memory waits

@@ -3,6 +3,8 @@
 #include <array>
 #include <fstream>
 
+#include "base/cache/cache.h"
+#include "base/files/program_file.h"
 #include "base/instruction_set.h"
 #include "renderer/image/provenance.h"
 #include "terrain/io/raster.h"
@@ -23,10 +25,10 @@ constexpr std::array<CachedProductInfo, 10> table = {{
     {CachedProduct::ground_texture, "texture of the ground", 1},
 }};
 
-// Two builds of one version may differ, so the running file is hashed. Where it cannot be read the
-// version is used.
+// Two builds of one version may differ, so the program or module is hashed. Where it cannot be read
+// the version is used.
 std::string hash_of_program() {
-  const std::string file = "/proc/self/exe";
+  const std::string file = program_file();
   return std::ifstream(file).good() ? hash_file(file) : std::string();
 }
 

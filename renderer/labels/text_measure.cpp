@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/files/program_file.h"
 
 namespace belvedere {
 namespace {
@@ -33,15 +34,21 @@ Font font_of(const TextStyle& style) {
   return font;
 }
 
-// Fonts of an installed program, once per process: they need not be known to the system.
+// Fonts of an installed program, or beside a module, once per process: they need not be known to
+// the system.
 void add_own_fonts() {
   static const bool added = [] {
     std::error_code missing;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", missing);
-    const std::filesystem::path folder =
-        program.parent_path().parent_path() / "share/belvedere/fonts";
-    return std::filesystem::is_directory(folder, missing) &&
-           FcConfigAppFontAddDir(nullptr, reinterpret_cast<const FcChar8*>(folder.c_str())) != 0;
+    const std::filesystem::path bin =
+        std::filesystem::canonical(program_file(), missing).parent_path();
+    bool any = false;
+    for (const std::filesystem::path& folder :
+         {bin.parent_path() / "share/belvedere/fonts", bin / "fonts"})
+      any =
+          (std::filesystem::is_directory(folder, missing) &&
+           FcConfigAppFontAddDir(nullptr, reinterpret_cast<const FcChar8*>(folder.c_str())) != 0) ||
+          any;
+    return any;
   }();
   static_cast<void>(added);
 }

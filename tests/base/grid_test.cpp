@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "tests/grids.h"
 
@@ -40,6 +42,28 @@ TEST(Grid, FillsAndCompares) {
   EXPECT_EQ(Grid<float>(2, 3), Grid<float>(2, 3));
   EXPECT_TRUE(Grid<float>(2, 3).same_size(Grid<int>(2, 3)));
   EXPECT_FALSE(Grid<float>(2, 3).same_size(Grid<int>(3, 2)));
+}
+
+TEST(Grid, LentMemoryIsReadWhereItIsAndNeverFreed) {
+  std::vector<float> own = {1.F, 2.F, 3.F, 4.F, 5.F, 6.F};
+  {
+    Grid<float> grid = Grid<float>::lent(own.data(), 3, 2);
+    EXPECT_EQ(grid.data(), own.data());
+    EXPECT_EQ(grid(2, 1), 6.F);
+    Grid<float> copy = grid;
+    EXPECT_NE(copy.data(), own.data());
+    EXPECT_EQ(copy, grid);
+    copy(0, 0) = 9.F;
+    EXPECT_EQ(own[0], 1.F);
+    Grid<float> moved = std::move(grid);
+    EXPECT_EQ(moved.data(), own.data());
+    moved = Grid<float>(2, 2, 7.F);  // gives the loan back
+    EXPECT_NE(moved.data(), own.data());
+    copy = Grid<float>::lent(own.data(), 2, 3);
+    EXPECT_EQ(copy(1, 2), 6.F);
+  }
+  EXPECT_EQ(own, (std::vector<float>{1.F, 2.F, 3.F, 4.F, 5.F, 6.F}));
+  EXPECT_TRUE(Grid<float>::lent(nullptr, 0, 0).empty());
 }
 
 TEST(Grid, ContainsItsCellsAndClampsToItsBorder) {

@@ -313,11 +313,40 @@ Grid<float> drawn_mask(const GeneralizeOptions& options, const Dem& dem, Progres
 }
 
 Grid<float> make_mask(const GeneralizeOptions& options, const Dem& dem, glm::dvec2 cell_m,
-                      Progress& progress) {
+                      const std::function<Grid<float>()>& read_drawn) {
   Grid<float> mask;
   if (const auto range = masked_slopes(options)) mask = slope_mask(dem.altitude_m, cell_m, *range);
-  return combine_masks(std::move(mask), drawn_mask(options, dem, progress));
+  return combine_masks(std::move(mask), read_drawn());
 }
+
+}  // namespace
+
+GeneralizedDem generalize_dem(const GeneralizeOptions& options, const GeneralizeParameters& bands,
+                              Dem& dem, glm::dvec2 cell_m,
+                              const std::function<Grid<float>()>& read_mask, Progress& progress) {
+  const double cell = 0.5 * (cell_m.x + cell_m.y);
+  // Destriping changes the data, and so the masks that are made from them.
+  if (options.operators.destripe) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
+  GeneralizedDem out;
+  GeneralizeGrids& grids = out.grids;
+  // First, because it needs the most memory.
+  if (masks_slope_feet(options))
+    grids.amplification_mask = make_foot_mask(dem, cell_m, bands.foreground.size());
+  if (!options.change_lakes) grids.keep = find_lakes(dem.altitude_m, {});
+  grids.mask = make_mask(options, dem, cell_m, read_mask);
+  grids.foreground_share = share_by_distance(options, dem, cell_m);
+  Grid<float> plain_m;
+  if (options.operators.line_integral)
+    plain_m = generalize_along_slope_lines(dem.altitude_m, grids.mask, cell, {}, progress);
+  out.altitude_m =
+      generalize(plain_m.empty() ? dem.altitude_m : plain_m, cell_m, grids, bands, progress);
+  plain_m = {};
+  out.altitude_m = operate_after_bands(out.altitude_m, grids.keep, grids.mask, cell,
+                                       options.operators, progress);
+  return out;
+}
+
+namespace {
 
 int run(const GeneralizeOptions& options) {
   const GeneralizeParameters bands = resolve_bands(options);
@@ -348,25 +377,10 @@ int run(const GeneralizeOptions& options) {
   if (dem.crs.empty())
     progress.note("the DEM has no coordinate system: its cells are taken as metres");
 
-  const double cell = 0.5 * (cell_m.x + cell_m.y);
   const Grid<float> original_m = options.report.empty() ? Grid<float>() : dem.altitude_m;
-  // Destriping changes the data, and so the masks that are made from them.
-  if (options.operators.destripe) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
-  GeneralizeGrids grids;
-  // First, because it needs the most memory.
-  if (masks_slope_feet(options))
-    grids.amplification_mask = make_foot_mask(dem, cell_m, bands.foreground.size());
-  if (!options.change_lakes) grids.keep = find_lakes(dem.altitude_m, {});
-  grids.mask = make_mask(options, dem, cell_m, progress);
-  grids.foreground_share = share_by_distance(options, dem, cell_m);
-  Grid<float> plain_m;
-  if (options.operators.line_integral)
-    plain_m = generalize_along_slope_lines(dem.altitude_m, grids.mask, cell, {}, progress);
-  Grid<float> result_m =
-      generalize(plain_m.empty() ? dem.altitude_m : plain_m, cell_m, grids, bands, progress);
-  plain_m = {};
-  result_m =
-      operate_after_bands(result_m, grids.keep, grids.mask, cell, options.operators, progress);
+  GeneralizedDem made = generalize_dem(
+      options, bands, dem, cell_m, [&] { return drawn_mask(options, dem, progress); }, progress);
+  Grid<float>& result_m = made.altitude_m;
 
   if (!options.report.empty()) {
     write_generalize_report(options.report,
@@ -375,7 +389,7 @@ int run(const GeneralizeOptions& options) {
                              .before_m = original_m,
                              .after_m = result_m,
                              .cell_m = cell_m,
-                             .grids = grids,
+                             .grids = made.grids,
                              .parameters = bands},
                             progress);
   }

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <functional>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "terrain/generalize/generalize.h"
 #include "terrain/generalize/mask.h"
+#include "terrain/io/dem.h"
 #include "tools/cli/terrain_operators.h"
 #include "tools/options/options.h"
 
@@ -43,6 +46,15 @@ GeneralizeParameters resolve_bands(const GeneralizeOptions& options);
 std::optional<SlopeRange> masked_slopes(const GeneralizeOptions& options);
 // Whether exaggeration is suppressed at the foot of slopes.
 bool masks_slope_feet(const GeneralizeOptions& options);
+// The request on a DEM without voids, whose cells on the ground are given. `read_mask`: the drawn
+// mask, called once; an empty grid is none. `dem` is destriped if that is asked for.
+struct GeneralizedDem {
+  Grid<float> altitude_m;
+  GeneralizeGrids grids;
+};
+GeneralizedDem generalize_dem(const GeneralizeOptions& options, const GeneralizeParameters& bands,
+                              Dem& dem, glm::dvec2 cell_m,
+                              const std::function<Grid<float>()>& read_mask, Progress& progress);
 // The run as a command line, with everything that altitudes depend on, without folders: the same on
 // every machine.
 std::string describe_generalize(const GeneralizeOptions& options,

@@ -18,6 +18,7 @@
 #include "renderer/style/style_file.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/studio/painting_work.h"
+#include "tools/cli/style_fit.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 #include "tools/report/style_pictures.h"
@@ -25,22 +26,12 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr std::size_t inferred_groups = 30;  // as few as hold one class each: nobody corrects them
-
 struct StyleFitOptions : RunOptions {
   std::string painting, classes, out, report, name, origin, licence;
 };
 
 Grid<std::uint8_t> read_classes(const StyleFitOptions& options) {
   return read_class_mask(options.classes, {far_air_label});
-}
-
-// The classes that `exemplar segment` infers.
-Grid<std::uint8_t> inferred_classes(const std::string& painting, const Grid<glm::vec3>& picture,
-                                    const Grid<float>& alpha) {
-  const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, painting);
-  const NamedGroups groups = name_groups(segments, inferred_groups, {});
-  return complete_sky(class_mask(segments, groups.of_pieces, groups.classes));
 }
 
 std::string as_text(const StyleFitOptions& options, const Style& style, std::size_t bytes) {
@@ -76,22 +67,14 @@ FittedStyle fit(const StyleFitOptions& options, Progress& progress) {
   Grid<float> alpha;
   FittedStyle out;
   out.picture = read_painting(options.painting, progress, &alpha);
-  if (options.classes.empty()) progress.begin("segmenting", 0.0);
-  out.mask = options.classes.empty() ? inferred_classes(options.painting, out.picture, alpha)
-                                     : read_classes(options);
-  for (std::size_t i = 0; i < alpha.size() && alpha.same_size(out.mask); ++i)
-    if (alpha[i] < 1.0F) out.mask[i] = unused_label;
+  if (!options.classes.empty()) out.mask = read_classes(options);
   StyleFitParameters parameters;
   parameters.name =
       options.name.empty() ? std::filesystem::path(options.out).stem().string() : options.name;
   parameters.origin = options.origin;
   parameters.licence = options.licence;
   out.reference = read_palette("summer");
-  out.style = fit_style(out.picture, out.mask, out.reference, parameters, progress);
-  if (options.classes.empty())
-    out.style.notes.insert(
-        out.style.notes.begin(),
-        "no mask was given: classes are inferred from position, colour and strokes");
+  out.style = fit_painting(out.picture, alpha, out.mask, options.painting, parameters, progress);
   return out;
 }
 
@@ -119,6 +102,26 @@ int run(const StyleFitOptions& options) {
 }
 
 }  // namespace
+
+Style fit_painting(const Grid<glm::vec3>& picture, const Grid<float>& alpha,
+                   Grid<std::uint8_t>& mask, const std::string& name,
+                   const StyleFitParameters& parameters, Progress& progress) {
+  constexpr std::size_t inferred_groups = 30;  // as few as hold one class each: nobody corrects
+  const bool inferred = mask.empty();
+  if (inferred) {
+    progress.begin("segmenting", 0.0);
+    const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, name);
+    const NamedGroups groups = name_groups(segments, inferred_groups, {});
+    mask = complete_sky(class_mask(segments, groups.of_pieces, groups.classes));
+  }
+  for (std::size_t i = 0; i < alpha.size() && alpha.same_size(mask); ++i)
+    if (alpha[i] < 1.0F) mask[i] = unused_label;
+  Style style = fit_style(picture, mask, read_palette("summer"), parameters, progress);
+  if (inferred)
+    style.notes.insert(style.notes.begin(),
+                       "no mask was given: classes are inferred from position, colour and strokes");
+  return style;
+}
 
 void write_fitted_style(const std::string& painting, const std::string& out, Progress& progress) {
   StyleFitOptions options;
