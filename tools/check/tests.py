@@ -84,6 +84,7 @@ tested_by = {
 # Folder: why it has no tests.
 untested = {
     "tools/bench/": "prints times, which cannot be tested; the measured code has its own tests",
+    "tools/python/": "tested in Python, through the package: tools/python/tests",
     "tools/lab/": "accuracy trials, which print tables; the measured code has its own tests",
 }
 

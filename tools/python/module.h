@@ -1,0 +1,26 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <vector>
+
+#include "renderer/scene/scene_file.h"
+
+namespace belvedere::python {
+
+// What each file of this folder adds to the module _belvedere: functions with all of their
+// arguments, for the package tools/python/belvedere, which has names, defaults and documentation.
+void add_guidance(pybind11::module_& module);
+void add_scene(pybind11::module_& module);
+void add_style(pybind11::module_& module);
+void add_synthesis(pybind11::module_& module);
+void add_terrain(pybind11::module_& module);
+void add_textures(pybind11::module_& module);
+
+// Channels of a scene, by the first of their names in files: arrays, origin of positions, and the
+// view.
+pybind11::object guidance_of(const LoadedScene& scene, const std::vector<std::string>& channels,
+                             const pybind11::tuple& run_request);
+
+}  // namespace belvedere::python

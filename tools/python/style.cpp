@@ -1,0 +1,66 @@
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+
+#include "renderer/image/icc/painting_file.h"
+#include "renderer/image/label_image.h"
+#include "renderer/style/style_file.h"
+#include "tools/cli/style_fit.h"
+#include "tools/python/arrays.h"
+#include "tools/python/background.h"
+#include "tools/python/module.h"
+
+namespace py = pybind11;
+
+namespace belvedere::python {
+namespace {
+
+Grid<glm::vec3> encoded_of(const Grid<Rgb8>& picture) {
+  Grid<glm::vec3> out(picture.width(), picture.height());
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      out[i][c] = static_cast<float>(picture[i][static_cast<std::size_t>(c)]) / 255.F;
+  return out;
+}
+
+// Painting and classes as arrays, else by their files; classes with neither are inferred.
+Style fit_style_of(const std::optional<ArrayOf<Rgb8>>& painting, const std::string& file,
+                   const std::optional<ArrayOf<std::uint8_t>>& classes,
+                   const std::string& classes_file, const std::string& name,
+                   const std::string& origin, const std::string& licence,
+                   const py::tuple& run_request) {
+  StyleFitParameters parameters;
+  parameters.name = name;
+  parameters.origin = origin;
+  parameters.licence = licence;
+  return in_background(run_request, [&](const Run& run) {
+    run.progress.begin("reading", 0.0);
+    Grid<float> alpha;
+    const Grid<glm::vec3> picture =
+        painting ? encoded_of(lent<Rgb8>(*painting)) : read_painting(file, run.progress, &alpha);
+    Grid<std::uint8_t> mask;
+    if (classes) mask = Grid<std::uint8_t>(lent<std::uint8_t>(*classes));
+    if (!classes_file.empty()) mask = read_class_mask(classes_file, {far_air_label});
+    return tools::fit_painting(picture, alpha, mask, file, parameters, run.progress);
+  });
+}
+
+}  // namespace
+
+void add_style(py::module_& module) {
+  py::class_<Style>(module, "Style")
+      .def_property_readonly("text", &style_text)
+      .def_readonly("name", &Style::name)
+      .def_readonly("origin", &Style::origin)
+      .def_readonly("licence", &Style::licence)
+      .def_readonly("notes", &Style::notes)
+      .def_readonly("broken", &Style::broken)
+      .def_readonly("vapour", &Style::vapour)
+      .def_readonly("hue_by_light", &Style::hue_by_light)
+      .def_readonly("units_per_px", &Style::units_per_px);
+  module.def("read_style", &read_style);
+  module.def("fit_style", &fit_style_of);
+}
+
+}  // namespace belvedere::python
