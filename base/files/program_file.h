@@ -4,11 +4,12 @@
 
 namespace belvedere {
 
-// The file that holds the code of the library: the running program, or the module that a host such
-// as Python loaded. Its folder has the fonts of an installation, its bytes tell one build from
-// another in the cache.
-std::string program_file();
-// For modules, before anything else is called.
-void set_program_file(std::string path);
+// The file that holds the code of the library: the running program; a module that a host such as
+// Python loads names itself before it calls anything. Its folder has the fonts of an installation,
+// its bytes tell one build from another in the cache.
+inline std::string& program_file() {
+  static std::string path = "/proc/self/exe";
+  return path;
+}
 
 }  // namespace belvedere

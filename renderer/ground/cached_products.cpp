@@ -28,7 +28,7 @@ constexpr std::array<CachedProductInfo, 10> table = {{
 // Two builds of one version may differ, so the program or module is hashed. Where it cannot be read
 // the version is used.
 std::string hash_of_program() {
-  const std::string file = program_file();
+  const std::string& file = program_file();
   return std::ifstream(file).good() ? hash_file(file) : std::string();
 }
 

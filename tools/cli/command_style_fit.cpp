@@ -18,7 +18,6 @@
 #include "renderer/style/style_file.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/studio/painting_work.h"
-#include "tools/cli/style_fit.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 #include "tools/report/style_pictures.h"

@@ -66,29 +66,20 @@ void show(const py::object& display, Told& told) {
 
 // A run's files are protected while it lasts; the next may replace its results. Counted with
 // Python's lock.
-class Protection {
- public:
-  Protection() { ++runs(); }
+struct Protection {
+  Protection() { ++runs; }
   ~Protection() {
-    if (--runs() == 0) file_guard().clear();
+    if (--runs == 0) file_guard().clear();
   }
   Protection(const Protection&) = delete;
   Protection& operator=(const Protection&) = delete;
-
- private:
-  static int& runs() {
-    static int count = 0;
-    return count;
-  }
+  inline static int runs = 0;
 };
 
 }  // namespace
 
-RunRequest run_request(const py::tuple& given) {
-  return {given[0], given[1].cast<int>(), given[2].cast<int>(), given[3].cast<bool>()};
-}
-
-void run_in_background(const RunRequest& request, const std::function<void(const Run&)>& work) {
+void run_in_background(const py::tuple& request, const std::function<void(const Run&)>& work) {
+  const py::object display = request[0];
   const Protection protection;
   Told told;
   std::exception_ptr raised;
@@ -101,9 +92,9 @@ void run_in_background(const RunRequest& request, const std::function<void(const
     }
   };
   tools::SceneOptions options;
-  options.threads = request.threads;
-  options.memory_mib = request.memory_mib;
-  options.no_cache = !request.cache;
+  options.threads = request[1].cast<int>();
+  options.memory_mib = request[2].cast<int>();
+  options.no_cache = !request[3].cast<bool>();
   std::future<void> done = std::async(std::launch::async, [&] {
     const Cache cache = tools::make_cache(options);
     const Run run = tools::make_run(options, Run{}.tile_px, told, cache);
@@ -117,12 +108,12 @@ void run_in_background(const RunRequest& request, const std::function<void(const
   while (!has_ended())
     guarded([&] {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!raised) show(request.display, told);
+      if (!raised) show(display, told);
     });
   guarded([&] { done.get(); });
   guarded([&] {
-    if (!raised) show(request.display, told);
-    request.display.attr("close")();
+    if (!raised) show(display, told);
+    display.attr("close")();
   });
   if (raised) std::rethrow_exception(raised);
 }

@@ -35,7 +35,7 @@ void translate(std::exception_ptr thrown) {
 void name_program_file() {
   Dl_info info{};
   if (dladdr(reinterpret_cast<void*>(&name_program_file), &info) != 0 && info.dli_fname != nullptr)
-    set_program_file(info.dli_fname);
+    program_file() = info.dli_fname;
 }
 
 }  // namespace

@@ -18,6 +18,11 @@ void add_synthesis(pybind11::module_& module);
 void add_terrain(pybind11::module_& module);
 void add_textures(pybind11::module_& module);
 
+// One of the options that the package passes in a dict.
+template <class T>
+void take(const pybind11::dict& given, const char* name, T& to) {
+  to = given[name].cast<T>();
+}
 // Channels of a scene, by the first of their names in files: arrays, origin of positions, and the
 // view.
 pybind11::object guidance_of(const LoadedScene& scene, const std::vector<std::string>& channels,

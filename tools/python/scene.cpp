@@ -119,22 +119,19 @@ std::vector<std::string> render_scene(const SceneText& scene, const std::string&
 std::string new_scene(const std::vector<std::string>& dems, const py::dict& given,
                       const py::tuple& run_request) {
   tools::NewOptions options;
-  const auto take = [&](const char* name, auto& to) {
-    to = given[name].cast<std::decay_t<decltype(to)>>();
-  };
   options.dems = dems;
-  take("out", options.out);
-  take("data", options.common.files.data_folders);
-  take("towards", options.towards);
-  take("from", options.from);
-  take("include", options.include);
-  take("format", options.format);
-  take("style", options.style);
-  take("plain", options.plain);
-  take("land_cover", options.cover.file);
-  take("legend", options.cover.legend);
-  take("crs", options.crs);
-  take("title", options.title);
+  take(given, "out", options.out);
+  take(given, "data", options.common.files.data_folders);
+  take(given, "towards", options.towards);
+  take(given, "from", options.from);
+  take(given, "include", options.include);
+  take(given, "format", options.format);
+  take(given, "style", options.style);
+  take(given, "plain", options.plain);
+  take(given, "land_cover", options.cover.file);
+  take(given, "legend", options.cover.legend);
+  take(given, "crs", options.crs);
+  take(given, "title", options.title);
   return in_background(run_request, [&](const Run& run) {
     return tools::new_scene_text(options, run.cache, run.progress);
   });

@@ -6,7 +6,7 @@
 #include "renderer/image/icc/painting_file.h"
 #include "renderer/image/label_image.h"
 #include "renderer/style/style_file.h"
-#include "tools/cli/style_fit.h"
+#include "tools/cli/studio/painting_work.h"
 #include "tools/python/arrays.h"
 #include "tools/python/background.h"
 #include "tools/python/module.h"
@@ -16,16 +16,9 @@ namespace py = pybind11;
 namespace belvedere::python {
 namespace {
 
-Grid<glm::vec3> encoded_of(const Grid<Rgb8>& picture) {
-  Grid<glm::vec3> out(picture.width(), picture.height());
-  for (std::size_t i = 0; i < picture.size(); ++i)
-    for (int c = 0; c < 3; ++c)
-      out[i][c] = static_cast<float>(picture[i][static_cast<std::size_t>(c)]) / 255.F;
-  return out;
-}
-
-// Painting and classes as arrays, else by their files; classes with neither are inferred.
-Style fit_style_of(const std::optional<ArrayOf<Rgb8>>& painting, const std::string& file,
+// Painting (encoded sRGB, 0…1) and classes as arrays, else by their files; classes with neither are
+// inferred.
+Style fit_style_of(const std::optional<ArrayOf<glm::vec3>>& painting, const std::string& file,
                    const std::optional<ArrayOf<std::uint8_t>>& classes,
                    const std::string& classes_file, const std::string& name,
                    const std::string& origin, const std::string& licence,
@@ -38,7 +31,7 @@ Style fit_style_of(const std::optional<ArrayOf<Rgb8>>& painting, const std::stri
     run.progress.begin("reading", 0.0);
     Grid<float> alpha;
     const Grid<glm::vec3> picture =
-        painting ? encoded_of(lent<Rgb8>(*painting)) : read_painting(file, run.progress, &alpha);
+        painting ? lent<glm::vec3>(*painting) : read_painting(file, run.progress, &alpha);
     Grid<std::uint8_t> mask;
     if (classes) mask = Grid<std::uint8_t>(lent<std::uint8_t>(*classes));
     if (!classes_file.empty()) mask = read_class_mask(classes_file, {far_air_label});
@@ -52,13 +45,7 @@ void add_style(py::module_& module) {
   py::class_<Style>(module, "Style")
       .def_property_readonly("text", &style_text)
       .def_readonly("name", &Style::name)
-      .def_readonly("origin", &Style::origin)
-      .def_readonly("licence", &Style::licence)
-      .def_readonly("notes", &Style::notes)
-      .def_readonly("broken", &Style::broken)
-      .def_readonly("vapour", &Style::vapour)
-      .def_readonly("hue_by_light", &Style::hue_by_light)
-      .def_readonly("units_per_px", &Style::units_per_px);
+      .def_readonly("notes", &Style::notes);
   module.def("read_style", &read_style);
   module.def("fit_style", &fit_style_of);
 }

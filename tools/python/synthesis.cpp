@@ -40,18 +40,15 @@ py::tuple synthesize_arrays(const std::vector<PictureArrays>& pictures,
                          stack_of(labels, guides)});
   const GuideStack target = stack_of(target_labels, target_guides);
   SynthesisParameters parameters;
-  const auto take = [&](const char* name, auto& to) {
-    to = given[name].cast<std::decay_t<decltype(to)>>();
-  };
-  take("weights", parameters.weights);
-  take("fallback", parameters.fallback);
-  take("seed", parameters.seed);
-  take("levels", parameters.levels);
-  take("reuse", parameters.reuse);
-  take("copy_cap", parameters.copy_cap);
-  take("neighbourhood", parameters.neighbourhood);
-  take("surroundings", parameters.surroundings);
-  take("surroundings_of", parameters.surroundings_of);
+  take(given, "weights", parameters.weights);
+  take(given, "fallback", parameters.fallback);
+  take(given, "seed", parameters.seed);
+  take(given, "levels", parameters.levels);
+  take(given, "reuse", parameters.reuse);
+  take(given, "copy_cap", parameters.copy_cap);
+  take(given, "neighbourhood", parameters.neighbourhood);
+  take(given, "surroundings", parameters.surroundings);
+  take(given, "surroundings_of", parameters.surroundings_of);
   auto [picture, matches] = in_background(run_request, [&](const Run& run) {
     MatchField found = synthesize(exemplars, target, parameters, run.progress);
     std::vector<const Grid<Rgb8>*> layers;

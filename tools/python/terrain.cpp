@@ -46,29 +46,26 @@ Grid<float> with_voids(Grid<float> cells, const Dem& dem) {
 
 tools::GeneralizeOptions options_of(const py::dict& given) {
   tools::GeneralizeOptions options;
-  const auto take = [&](const char* name, auto& to) {
-    to = given[name].cast<std::decay_t<decltype(to)>>();
-  };
-  take("preset", options.preset);
-  take("weights", options.global);
-  take("ridges", options.ridges);
-  take("valleys", options.valleys);
-  take("background_weights", options.background_global);
-  take("background_ridges", options.background_ridges);
-  take("background_valleys", options.background_valleys);
-  take("base", options.bands.base);
-  take("curvature", options.curvature);
-  take("full_curvature", options.bands.full_curvature);
-  take("blur_cells", options.bands.blur_cells);
-  take("exponent", options.bands.exponent);
-  take("viewer", options.viewer);
-  take("distances", options.distances);
-  take("mask_slope", options.mask_slope);
-  take("automatic_mask", options.automatic_mask);
-  take("change_lakes", options.change_lakes);
-  take("destripe", options.operators.destripe);
-  take("line_integral", options.operators.line_integral);
-  take("widen_valleys_m", options.operators.widen_valleys_m);
+  take(given, "preset", options.preset);
+  take(given, "weights", options.global);
+  take(given, "ridges", options.ridges);
+  take(given, "valleys", options.valleys);
+  take(given, "background_weights", options.background_global);
+  take(given, "background_ridges", options.background_ridges);
+  take(given, "background_valleys", options.background_valleys);
+  take(given, "base", options.bands.base);
+  take(given, "curvature", options.curvature);
+  take(given, "full_curvature", options.bands.full_curvature);
+  take(given, "blur_cells", options.bands.blur_cells);
+  take(given, "exponent", options.bands.exponent);
+  take(given, "viewer", options.viewer);
+  take(given, "distances", options.distances);
+  take(given, "mask_slope", options.mask_slope);
+  take(given, "automatic_mask", options.automatic_mask);
+  take(given, "change_lakes", options.change_lakes);
+  take(given, "destripe", options.operators.destripe);
+  take(given, "line_integral", options.operators.line_integral);
+  take(given, "widen_valleys_m", options.operators.widen_valleys_m);
   return options;
 }
 
@@ -93,23 +90,19 @@ py::array deform_array(const Altitudes& altitude_m, Cell cell_m, std::array<doub
   const std::string text = "version = 1\n[terrain.synthetic]\n[camera]\nposition = [0, 0]\n";
   const SceneDeform asked =
       parse_scene(text, "deform", "", {.data_folders = {}, .settings = settings}).scene.deform;
-  const auto prepare = [&](Progress& progress) {
-    Dem dem = dem_of(altitude_m, cell_m);
-    Deformation deformation(resolve_deform(asked, dem), {viewer[0], viewer[1]});
-    progress.begin("deforming", 0.0);
-    return std::pair(std::move(dem), std::move(deformation));
-  };
-  if (!raster)
-    return array_of(in_background(run_request, [&](const Run& run) {
-      const auto [dem, deformation] = prepare(run.progress);
-      return deform(dem.altitude_m, dem.transform, glm::dvec3(0.0), deformation).vertices_m;
-    }));
-  return array_of(in_background(run_request, [&](const Run& run) {
-    const auto [dem, deformation] = prepare(run.progress);
-    const Deformation& moved = deformation;
-    return raster_of_moved(with_voids(dem.altitude_m, dem), dem.transform,
-                           [&moved](glm::dvec3 at) { return moved.point(at); });
-  }));
+  Grid<glm::vec3> vertices_m;
+  Grid<float> heights_m;
+  run_in_background(run_request, [&](const Run& run) {
+    const Dem dem = dem_of(altitude_m, cell_m);
+    const Deformation deformation(resolve_deform(asked, dem), {viewer[0], viewer[1]});
+    run.progress.begin("deforming", 0.0);
+    if (raster)
+      heights_m = raster_of_moved(with_voids(dem.altitude_m, dem), dem.transform,
+                                  [&](glm::dvec3 at) { return deformation.point(at); });
+    else
+      vertices_m = deform(dem.altitude_m, dem.transform, glm::dvec3(0.0), deformation).vertices_m;
+  });
+  return raster ? array_of(std::move(heights_m)) : array_of(std::move(vertices_m));
 }
 
 }  // namespace

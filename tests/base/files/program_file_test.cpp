@@ -10,9 +10,9 @@ namespace {
 TEST(ProgramFile, IsTheRunningProgramUntilAModuleNamesItself) {
   const std::string before = program_file();
   EXPECT_EQ(std::filesystem::read_symlink(before).filename(), "base_tests");
-  set_program_file("/usr/lib/module.so");
+  program_file() = "/usr/lib/module.so";
   EXPECT_EQ(program_file(), "/usr/lib/module.so");
-  set_program_file(before);
+  program_file() = before;
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ class Bar(Display):
             self.close()
             self._stage = stage
             self._bar = _new_bar(stage, total)
-        self._bar.n = done
+        self._bar.n = min(done, total or done)
         self._bar.refresh()
 
     def close(self) -> None:

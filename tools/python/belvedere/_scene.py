@@ -65,13 +65,7 @@ class Scene:
 
     @classmethod
     def parse(
-        cls,
-        text: str,
-        *,
-        name: str = "scene.toml",
-        folder: Path = "",
-        data: Path | Sequence[Path] = (),
-        set: Mapping[str, Any] = {},
+        cls, text: str, *, name: str = "scene.toml", folder: Path = "", data: Path | Sequence[Path] = (), set: Mapping[str, Any] = {}
     ) -> Scene:
         """A scene from the text of a file, whose other files are searched in the folder."""
         scene = cls(_belvedere.SceneText(text, name, os.fspath(folder), _paths(data)))
@@ -142,13 +136,7 @@ class Scene:
         return f"<belvedere.Scene {self.name}, {self['output.width']} × {self['output.height']} px>"
 
     def draw(
-        self,
-        width: int = 1000,
-        *,
-        threads: int = 0,
-        memory_mib: int = 0,
-        cache: bool = True,
-        progress: Progress = "auto",
+        self, width: int = 1000, *, threads: int = 0, memory_mib: int = 0, cache: bool = True, progress: Progress = "auto"
     ) -> np.ndarray:
         """The picture in memory, without files: uint8 (height, width, 3), encoded sRGB.
 
@@ -160,20 +148,9 @@ class Scene:
         return self._scene.draw(width, run(progress, threads, memory_mib, cache))
 
     def render(
-        self,
-        out: Path,
-        *,
-        draft: bool = False,
-        part: tuple[int, int, int, int] | None = None,
-        match: bool = False,
-        layers: Sequence[str] = (),
-        channels: str = "",
-        resume: bool = False,
-        force: bool = False,
-        threads: int = 0,
-        memory_mib: int = 0,
-        cache: bool = True,
-        progress: Progress = "auto",
+        self, out: Path, *, draft: bool = False, part: tuple[int, int, int, int] | None = None, match: bool = False,
+        layers: Sequence[str] = (), channels: str = "", resume: bool = False, force: bool = False, threads: int = 0,
+        memory_mib: int = 0, cache: bool = True, progress: Progress = "auto"
     ) -> list[str]:
         """Writes the panorama and guidance.exr into a folder; returns the paths of the files.
 
@@ -187,14 +164,8 @@ class Scene:
         return [path for path in (os.path.join(folder, name) for name in names) if os.path.exists(path)]
 
     def guidance(
-        self,
-        *,
-        width: int | None = None,
-        channels: Sequence[str] | None = None,
-        threads: int = 0,
-        memory_mib: int = 0,
-        cache: bool = True,
-        progress: Progress = "auto",
+        self, *, width: int | None = None, channels: Sequence[str] | None = None, threads: int = 0, memory_mib: int = 0,
+        cache: bool = True, progress: Progress = "auto"
     ) -> Guidance:
         """What each pixel shows, without painting.
 
@@ -209,20 +180,9 @@ class Scene:
 
 
 def new(
-    dem: Path | Sequence[Path],
-    *,
-    towards: str | float | None = None,
-    from_: tuple[float, float] | None = None,
-    include: Sequence[str] = (),
-    format: str = "2:1",
-    style: str = "",
-    plain: bool = False,
-    land_cover: Path = "",
-    legend: str = "",
-    crs: str = "",
-    title: str = "",
-    out: Path | None = None,
-    progress: Progress = "auto",
+    dem: Path | Sequence[Path], *, towards: str | float | None = None, from_: tuple[float, float] | None = None,
+    include: Sequence[str] = (), format: str = "2:1", style: str = "", plain: bool = False, land_cover: Path = "", legend: str = "",
+    crs: str = "", title: str = "", out: Path | None = None, progress: Progress = "auto"
 ) -> Scene:
     """A scene of a region with the best view that its elevation offers; nothing is written.
 
@@ -231,24 +191,14 @@ def new(
     "name|lon,lat". format: "2:1", "A2", "cylinder" … out: where the scene will be saved, beside which it
     finds its files; default: beside the first elevation file. The others are options of `belvedere new`.
     """
+    options = dict(locals())
     files = _paths(dem)
     if not files:
         raise Error("dem", "no file is named", "an elevation file, or several")
     name = os.path.splitext(files[0])[0] + ".toml" if out is None else os.fspath(out)
     data = list(dict.fromkeys(os.path.dirname(os.path.abspath(file)) for file in files))
-    options = {
-        "out": name,
-        "data": data,
-        "towards": "" if towards is None else str(towards),
-        "from": "" if from_ is None else f"{from_[0]},{from_[1]}",
-        "include": list(include),
-        "format": format,
-        "style": style,
-        "plain": plain,
-        "land_cover": os.fspath(land_cover),
-        "legend": legend,
-        "crs": crs,
-        "title": title,
-    }
+    options.update({"out": name, "data": data, "include": list(include), "land_cover": os.fspath(land_cover)})
+    options["towards"] = "" if towards is None else str(towards)
+    options["from"] = "" if from_ is None else f"{from_[0]},{from_[1]}"
     text = _belvedere.new_scene(files, options, run(progress))
     return Scene.parse(text, name=name, folder=os.path.dirname(name), data=data)

@@ -22,21 +22,9 @@ def _each(given: Any, pictures: int, name: str) -> list:
 
 
 def synthesize(
-    picture: Arrays,
-    labels: Arrays,
-    target_labels: np.ndarray,
-    *,
-    guides: Mapping[str, tuple[Arrays, np.ndarray, float]] = {},
-    fallback: Mapping[int, int] = {},
-    seed: int = 1,
-    levels: int = 6,
-    reuse: float = 1.0,
-    copy_cap: int = 240,
-    neighbourhood: int = 7,
-    surroundings: float = 1.0,
-    surroundings_of: str = "commonest",
-    threads: int = 0,
-    progress: Progress = "auto",
+    picture: Arrays, labels: Arrays, target_labels: np.ndarray, *, guides: Mapping[str, tuple[Arrays, np.ndarray, float]] = {},
+    fallback: Mapping[int, int] = {}, seed: int = 1, levels: int = 6, reuse: float = 1.0, copy_cap: int = 240, neighbourhood: int = 7,
+    surroundings: float = 1.0, surroundings_of: str = "commonest", threads: int = 0, progress: Progress = "auto"
 ) -> tuple[np.ndarray, np.ndarray]:
     """Copies the texture of a painting to where labels and guides say (docs/synthesis.md).
 
@@ -51,13 +39,15 @@ def synthesize(
     Returns the picture, uint8 (height, width, 3), and the match field, uint16 (height, width, 3): number of
     the picture (65535: nothing could be copied, black), and x and y in it, px.
     """
+    options = dict(locals())
     from belvedere._arrays import numbers
     from belvedere._arrays import picture as taken_picture
 
     pictures = picture if isinstance(picture, list) else [picture]
     count = len(pictures)
     sources: list[list[tuple[str, np.ndarray]]] = [[] for _ in pictures]
-    targets, weights = [], []
+    targets: list[tuple[str, np.ndarray]] = []
+    options.update({"weights": [], "fallback": dict(fallback)})
     for name, guide in guides.items():
         where = f'guides["{name}"]'
         if not isinstance(guide, (tuple, list)) or len(guide) != 3:
@@ -65,7 +55,7 @@ def synthesize(
         for own, source in zip(sources, _each(guide[0], count, where)):
             own.append((name, numbers(source, f"{where} source")))
         targets.append((name, numbers(guide[1], f"{where} target")))
-        weights.append((name, float(guide[2])))
+        options["weights"].append((name, float(guide[2])))
     for pair in fallback.items():
         if not all(0 <= label < 255 for label in pair) or pair[0] == pair[1]:
             raise Error("fallback", f"{pair[0]}: {pair[1]}", "two different labels, 0 … 254")
@@ -73,16 +63,5 @@ def synthesize(
         (taken_picture(one, "picture"), numbers(own, "labels"), stack)
         for one, own, stack in zip(pictures, _each(labels, count, "labels"), sources)
     ]
-    options = {
-        "weights": weights,
-        "fallback": dict(fallback),
-        "seed": seed,
-        "levels": levels,
-        "reuse": reuse,
-        "copy_cap": copy_cap,
-        "neighbourhood": neighbourhood,
-        "surroundings": surroundings,
-        "surroundings_of": surroundings_of,
-    }
     target = numbers(target_labels, "target_labels")
     return _belvedere.synthesize(exemplars, target, targets, options, run(progress, threads))

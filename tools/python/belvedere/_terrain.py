@@ -27,32 +27,13 @@ def _cell(cell_m: Any) -> tuple[float, float]:
 
 
 def generalize(
-    altitude_m: np.ndarray,
-    cell_m: float | tuple[float, float],
-    *,
-    preset: str = "",
-    weights: Sequence[float] = (),
-    ridges: Sequence[float] = (),
-    valleys: Sequence[float] = (),
-    background_weights: Sequence[float] = (),
-    background_ridges: Sequence[float] = (),
-    background_valleys: Sequence[float] = (),
-    base: float = 1.0,
-    viewer: tuple[float, float] | None = None,
-    distances: tuple[float, float] | None = None,
-    mask: np.ndarray | None = None,
-    mask_slope: tuple[float, float] | None = None,
-    automatic_mask: bool = False,
-    change_lakes: bool = False,
-    curvature: str = "bounded",
-    full_curvature: float = 0.0,
-    blur_cells: float = 1.0,
-    exponent: float = 1.0,
-    destripe: bool = False,
-    line_integral: bool = False,
-    widen_valleys_m: float = 0.0,
-    threads: int = 0,
-    progress: Progress = "auto",
+    altitude_m: np.ndarray, cell_m: float | tuple[float, float], *, preset: str = "", weights: Sequence[float] = (),
+    ridges: Sequence[float] = (), valleys: Sequence[float] = (), background_weights: Sequence[float] = (),
+    background_ridges: Sequence[float] = (), background_valleys: Sequence[float] = (), base: float = 1.0,
+    viewer: tuple[float, float] | None = None, distances: tuple[float, float] | None = None, mask: np.ndarray | None = None,
+    mask_slope: tuple[float, float] | None = None, automatic_mask: bool = False, change_lakes: bool = False,
+    curvature: str = "bounded", full_curvature: float = 0.0, blur_cells: float = 1.0, exponent: float = 1.0, destripe: bool = False,
+    line_integral: bool = False, widen_valleys_m: float = 0.0, threads: int = 0, progress: Progress = "auto"
 ) -> np.ndarray:
     """Simplifies landforms and keeps ridges sharp, as `belvedere generalize` (docs/generalization.md).
 
@@ -65,6 +46,7 @@ def generalize(
     first, generalized from the second. full_curvature: .001…10. blur_cells: 0…10. exponent: 0…4.
     Returns float32 (height, width), m.
     """
+    options = dict(locals())
     from belvedere._arrays import altitudes, pair, same_size
 
     cells = altitudes(altitude_m)
@@ -76,43 +58,14 @@ def generalize(
     if curvature not in ("bounded", "plan"):
         raise Error("curvature", f'"{curvature}"', "bounded, plan")
 
-    def two(values: Any, name: str) -> list[float]:
-        return [] if values is None else list(pair(values, name))
-
-    options = {
-        "preset": preset,
-        "weights": list(weights),
-        "ridges": list(ridges),
-        "valleys": list(valleys),
-        "background_weights": list(background_weights),
-        "background_ridges": list(background_ridges),
-        "background_valleys": list(background_valleys),
-        "base": base,
-        "curvature": curvature,
-        "full_curvature": full_curvature,
-        "blur_cells": blur_cells,
-        "exponent": exponent,
-        "viewer": two(viewer, "viewer"),
-        "distances": two(distances, "distances"),
-        "mask_slope": two(mask_slope, "mask_slope"),
-        "automatic_mask": automatic_mask,
-        "change_lakes": change_lakes,
-        "destripe": destripe,
-        "line_integral": line_integral,
-        "widen_valleys_m": widen_valleys_m,
-    }
+    for name, given in (("viewer", viewer), ("distances", distances), ("mask_slope", mask_slope)):
+        options[name] = [] if given is None else list(pair(given, name))
     return _belvedere.generalize(cells, _cell(cell_m), options, drawn, run(progress, threads))
 
 
 def deform(
-    altitude_m: np.ndarray,
-    cell_m: float | tuple[float, float],
-    viewer: tuple[float, float] = (0.0, 0.0),
-    *,
-    raster: bool = False,
-    threads: int = 0,
-    progress: Progress = "auto",
-    **keys: Any,
+    altitude_m: np.ndarray, cell_m: float | tuple[float, float], viewer: tuple[float, float] = (0.0, 0.0), *, raster: bool = False,
+    threads: int = 0, progress: Progress = "auto", **keys: Any
 ) -> np.ndarray:
     """Raises and bends the ground as for a picture (docs/deformation.md).
 

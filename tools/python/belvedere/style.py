@@ -45,14 +45,8 @@ def load(name_or_path: str | os.PathLike[str]) -> Style:
 
 
 def fit(
-    painting: FileOrArray,
-    *,
-    classes: FileOrArray | None = None,
-    name: str = "",
-    origin: str = "",
-    licence: str = "",
-    threads: int = 0,
-    progress: Progress = "auto",
+    painting: FileOrArray, *, classes: FileOrArray | None = None, name: str = "", origin: str = "", licence: str = "",
+    threads: int = 0, progress: Progress = "auto"
 ) -> Style:
     """Fits the style of a landscape painting, as `belvedere style fit`.
 
@@ -60,11 +54,13 @@ def fit(
     classes: a mask of class numbers, a file or uint8 (height, width): 200 for distant ranges in haze colour,
     255 for unused pixels; default: inferred.
     """
+    import numpy as np
+
     from belvedere import _arrays
 
     file = os.fspath(painting) if _arrays.is_path(painting) else ""
     mask_file = os.fspath(classes) if _arrays.is_path(classes) else ""
-    picture = None if file else _arrays.picture(painting, "painting")
+    picture = None if file else np.divide(_arrays.picture(painting, "painting"), np.float32(255))
     mask = None if classes is None or mask_file else _arrays.numbers(classes, "classes")
     name = name or os.path.splitext(os.path.basename(file))[0] or "painting"
     return Style(_belvedere.fit_style(picture, file, mask, mask_file, name, origin, licence, run(progress, threads)))

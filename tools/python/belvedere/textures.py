@@ -45,13 +45,8 @@ def load(path: str | os.PathLike[str]) -> Model:
 
 
 def learn(
-    crop: np.ndarray,
-    *,
-    mask: np.ndarray | None = None,
-    types: int = 40,
-    levels: int = 3,
-    threads: int = 0,
-    progress: Progress = "auto",
+    crop: np.ndarray, *, mask: np.ndarray | None = None, types: int = 40, levels: int = 3, threads: int = 0,
+    progress: Progress = "auto"
 ) -> Model:
     """Learns a texture from a crop of a painting, as `belvedere texture learn`.
 

@@ -50,6 +50,12 @@ def hill(side=90):
     return (500 + round_hill + 8 * np.sin(0.9 * x)).astype(np.float32)
 
 
+def ranges(side=240):
+    """Two ranges with valleys between them, for cells of 250 m."""
+    y, x = np.mgrid[0:side, 0:side]
+    return 600 + 1500 * np.sin(x / 17) ** 2 * np.cos(y / 23) ** 2 + 500 * np.sin((x + 2 * y) / 31) ** 2
+
+
 def write_asc(path, cells, cell_m=100.0, east=600000, north=5200000):
     head = f"ncols {cells.shape[1]}\nnrows {cells.shape[0]}\nxllcorner {east}\nyllcorner {north}\ncellsize {cell_m}\n"
     np.savetxt(path, cells, fmt="%.9g", header=head.rstrip("\n"), comments="")

@@ -7,6 +7,7 @@ import re
 import sys
 
 import pytest
+from conftest import ranges, tiny
 
 import belvedere
 
@@ -116,7 +117,8 @@ def run_code(code, folder, monkeypatch):
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    space = {"__name__": "__main__"}
+    space = {"__name__": "__main__", "tiny": tiny}
+    code = re.sub(r"Scene\.demo\([^)]*\)", "Scene.demo(set=tiny)", code)
     exec(compile(code, "document", "exec"), space)
     figures = len(pyplot.get_fignums())
     pyplot.close("all")
@@ -134,15 +136,16 @@ def test_notebooks_run(notebook, pictures, tmp_path, monkeypatch):
     assert run_code(small, tmp_path, monkeypatch) >= pictures
 
 
+@pytest.mark.long
 def test_examples_of_the_page_run(tmp_path, monkeypatch):
-    pytest.importorskip("rasterio")
+    rasterio = pytest.importorskip("rasterio")
     pytest.importorskip("xarray")
-    from conftest import hill, write_asc
-
-    write_asc(tmp_path / "dem.asc", hill())
-    (tmp_path / "dem.prj").write_text(__import__("rasterio").crs.CRS.from_epsg(32632).to_wkt())
+    form = {"driver": "GTiff", "width": 240, "height": 240, "count": 1, "dtype": "float32", "crs": "EPSG:32632"}
+    place = rasterio.transform.from_origin(600000, 5260000, 250, 250)
+    with rasterio.open(tmp_path / "my_dem.tif", "w", transform=place, **form) as file:
+        file.write(ranges().astype("float32"), 1)
     page = (root / "docs/python.md").read_text(encoding="utf-8")
     blocks = re.findall(r"^```python\n(.*?)^```", page, re.M | re.S)
-    assert len(blocks) >= 5
-    small = "\n".join(blocks).replace("width=1000", "width=128").replace("demo()", 'demo(set={"synthesis.enabled": False})')
+    assert len(blocks) >= 8
+    small = "\n".join(blocks).replace("width=1000", "width=128").replace("500.5, 300.5", "64.5, 40.5")
     run_code(small, tmp_path, monkeypatch)

@@ -8,7 +8,7 @@ import time
 
 import numpy as np
 import pytest
-from conftest import hill, tiny, write_asc
+from conftest import hill, ranges, tiny, write_asc
 from PIL import Image
 
 import belvedere
@@ -164,10 +164,7 @@ def test_ctrl_c_stops_within_a_second():
 
 
 def test_new_finds_a_view_and_writes_nothing(tmp_path):
-    # Two ranges of 60 km with valleys between them, cells of 250 m.
-    y, x = np.mgrid[0:240, 0:240]
-    cells = 600 + 1500 * np.sin(x / 17) ** 2 * np.cos(y / 23) ** 2 + 500 * np.sin((x + 2 * y) / 31) ** 2
-    write_asc(tmp_path / "ranges.asc", cells, cell_m=250)
+    write_asc(tmp_path / "ranges.asc", ranges(), cell_m=250)
     scene = belvedere.new(tmp_path / "ranges.asc", towards="south", crs="EPSG:32632", format="3:1")
     assert os.listdir(tmp_path) == ["ranges.asc"]
     assert abs(scene["camera.azimuth_deg"] - 180) < 60
