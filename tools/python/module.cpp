@@ -14,6 +14,11 @@
 namespace py = pybind11;
 
 namespace belvedere::python {
+
+void save_text(const py::object& path, const std::string& text) {
+  write_text_file(py::module_::import("os").attr("fspath")(path).cast<std::string>(), text);
+}
+
 namespace {
 
 void raise_in_python(const Error& error) {
@@ -47,7 +52,7 @@ PYBIND11_MODULE(_belvedere, module) {
   reuse_freed_memory();
   py::register_exception_translator(&python::translate);
   module.attr("version") = program_version();
-  module.def("write_text", &write_text_file);
+  module.def("save_text", &python::save_text);
   python::add_guidance(module);
   python::add_scene(module);
   python::add_style(module);

@@ -18,6 +18,8 @@ void add_synthesis(pybind11::module_& module);
 void add_terrain(pybind11::module_& module);
 void add_textures(pybind11::module_& module);
 
+// `path`: a string or os.PathLike.
+void save_text(const pybind11::object& path, const std::string& text);
 // One of the options that the package passes in a dict.
 template <class T>
 void take(const pybind11::dict& given, const char* name, T& to) {

@@ -44,6 +44,7 @@ Style fit_style_of(const std::optional<ArrayOf<glm::vec3>>& painting, const std:
 void add_style(py::module_& module) {
   py::class_<Style>(module, "Style")
       .def_property_readonly("text", &style_text)
+      .def("save", [](const Style& of, const py::object& path) { save_text(path, style_text(of)); })
       .def_readonly("name", &Style::name)
       .def_readonly("notes", &Style::notes);
   module.def("read_style", &read_style);

@@ -48,7 +48,9 @@ py::array make_array(const CliqueModel& model, int width, int height, std::uint6
 
 void add_textures(py::module_& module) {
   py::class_<CliqueModel>(module, "TextureModel")
-      .def_property_readonly("text", &model_text)
+      .def_property_readonly("text", [](const CliqueModel& of) { return model_text(of); })
+      .def("save",
+           [](const CliqueModel& of, const py::object& path) { save_text(path, model_text(of)); })
       .def_property_readonly("types", [](const CliqueModel& of) { return of.cliques.size(); })
       .def_property_readonly("bytes", &model_bytes);
   module.def("read_model", [](const std::string& path) { return read_model(path); });

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import os
-from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence, Union
 
 from belvedere import _belvedere
 from belvedere._error import Error
@@ -71,7 +71,7 @@ def first_names(names: Sequence[str] | None) -> list[str]:
     return [channel.file_names[0] for channel in asked]
 
 
-class Guidance:
+class Guidance(Mapping):
     """What each pixel of a picture shows: a mapping of NumPy arrays by the names of channels ("Z",
     "altitude", "N", "landcover.id").
 
@@ -105,12 +105,6 @@ class Guidance:
         """The scene's coordinate system, WKT; empty where there is none."""
         return self._view.crs if self._view is not None else ""
 
-    def keys(self) -> list[str]:
-        return list(self._arrays)
-
-    def items(self) -> list[tuple[str, np.ndarray]]:
-        return list(self._arrays.items())
-
     def __iter__(self) -> Iterator[str]:
         return iter(self._arrays)
 
@@ -119,6 +113,9 @@ class Guidance:
 
     def __contains__(self, name: object) -> bool:
         return name in self._arrays
+
+    def get(self, name: str, default: Any = None) -> Any:
+        return self._arrays.get(name, default)
 
     def __getitem__(self, name: str) -> np.ndarray:
         channel = _named(name)

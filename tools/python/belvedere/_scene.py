@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, MutableMapping, Sequence, Union
 
 from belvedere import _belvedere
 from belvedere._error import Error
@@ -42,7 +42,7 @@ def _paths(paths: Path | Sequence[Path]) -> list[str]:
     return [os.fspath(path) for path in paths]
 
 
-class Scene:
+class Scene(MutableMapping):
     """A panorama: terrain, view, light and look.
 
     A scene is used like a dictionary of its keys ("sun.azimuth_deg", see docs/scene.md); each value is
@@ -90,7 +90,7 @@ class Scene:
 
     def save(self, path: Path) -> None:
         """Writes the text to a file."""
-        _belvedere.write_text(os.fspath(path), self.text)
+        _belvedere.save_text(path, self.text)
 
     def copy(self) -> Scene:
         """A scene of its own with the same values."""
@@ -100,17 +100,14 @@ class Scene:
         """All values in effect, defaults included, in the order of docs/scene.md."""
         return {key: json.loads(value) for key, value in self._scene.values()}
 
-    def keys(self) -> list[str]:
-        return [key for key, _ in self._scene.values()]
-
     def __iter__(self) -> Iterator[str]:
-        return iter(self.keys())
+        return iter([key for key, _ in self._scene.values()])
 
     def __len__(self) -> int:
-        return len(self.keys())
+        return len(self._scene.values())
 
     def __contains__(self, key: object) -> bool:
-        return key in self.keys()
+        return key in list(self)
 
     def __getitem__(self, key: str) -> Any:
         values = dict(self._scene.values())

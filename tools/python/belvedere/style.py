@@ -14,34 +14,13 @@ if TYPE_CHECKING:
     FileOrArray = Union[str, "os.PathLike[str]", "np.ndarray"]
 
 
-class Style:
-    """The look of a painting as numbers: colours, brushwork and sky."""
-
-    def __init__(self, style: _belvedere.Style) -> None:
-        self._style = style
-
-    @property
-    def text(self) -> str:
-        """As TOML."""
-        return self._style.text
-
-    @property
-    def name(self) -> str:
-        return self._style.name
-
-    @property
-    def notes(self) -> list[str]:
-        """What was derived and from what."""
-        return self._style.notes
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a style file, which scenes name: scene["style"] = "painting.toml"."""
-        _belvedere.write_text(os.fspath(path), self.text)
+#: The look of a painting as numbers: text (TOML), name, notes (what was derived and from what), save(path) for scene["style"] = path.
+Style = _belvedere.Style
 
 
 def load(name_or_path: str | os.PathLike[str]) -> Style:
     """A built-in style by its name, "segantini", or a style file."""
-    return Style(_belvedere.read_style(os.fspath(name_or_path)))
+    return _belvedere.read_style(os.fspath(name_or_path))
 
 
 def fit(
@@ -63,4 +42,4 @@ def fit(
     picture = None if file else np.divide(_arrays.picture(painting, "painting"), np.float32(255))
     mask = None if classes is None or mask_file else _arrays.numbers(classes, "classes")
     name = name or os.path.splitext(os.path.basename(file))[0] or "painting"
-    return Style(_belvedere.fit_style(picture, file, mask, mask_file, name, origin, licence, run(progress, threads)))
+    return _belvedere.fit_style(picture, file, mask, mask_file, name, origin, licence, run(progress, threads))

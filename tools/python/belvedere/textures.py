@@ -13,35 +13,13 @@ if TYPE_CHECKING:
     import numpy as np
 
 
-class Model:
-    """Statistics of pairs of pixels: about a kilobyte, whatever is made of it."""
-
-    def __init__(self, model: _belvedere.TextureModel) -> None:
-        self._model = model
-
-    @property
-    def text(self) -> str:
-        """As TOML."""
-        return self._model.text
-
-    @property
-    def types(self) -> int:
-        """Number of types of pairs."""
-        return self._model.types
-
-    @property
-    def bytes(self) -> int:
-        """Size without information about the crop."""
-        return self._model.bytes
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a model file."""
-        _belvedere.write_text(os.fspath(path), self.text)
+#: Statistics of pairs of pixels, about a kilobyte: text (TOML), types (of pairs), bytes, save(path).
+Model = _belvedere.TextureModel
 
 
 def load(path: str | os.PathLike[str]) -> Model:
     """Reads a model file."""
-    return Model(_belvedere.read_model(os.fspath(path)))
+    return _belvedere.read_model(os.fspath(path))
 
 
 def learn(
@@ -63,7 +41,7 @@ def learn(
         raise Error("types", f"{types}", "16 … 200")
     if not 0 <= levels <= 4:
         raise Error("levels", f"{levels}", "0 … 4")
-    return Model(_belvedere.learn_texture(picture, counted, types, levels, run(progress, threads)))
+    return _belvedere.learn_texture(picture, counted, types, levels, run(progress, threads))
 
 
 def make(
@@ -75,4 +53,4 @@ def make(
     """
     if width < 1 or height < 1:
         raise Error("width, height", f"{width} × {height} px", "1 px or more")
-    return _belvedere.make_texture(model._model, width, height, seed, run(progress, threads))
+    return _belvedere.make_texture(model, width, height, seed, run(progress, threads))

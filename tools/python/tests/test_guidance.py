@@ -84,12 +84,3 @@ def test_terrain_without_coordinates_has_metres_alone(demo):
     y, x = (float(places[0]) + 0.5 for places in np.nonzero(np.isfinite(guidance["Z"])))
     east, north = guidance.lonlat(x, y, crs=None)
     assert guidance.pixel(east, north, crs=None) == pytest.approx((x, y), abs=0.01)
-
-
-def test_to_xarray(hill_scene):
-    pytest.importorskip("xarray")
-    guidance = hill_scene.guidance(channels=["Z", "N"], width=64)
-    data = guidance.to_xarray()
-    assert data["Z"].dims == ("y", "x") and data["N"].shape == (36, 64, 3)
-    assert data["Z"].attrs["units"] == "m"
-    np.testing.assert_array_equal(data["Z"].values, guidance["Z"])
