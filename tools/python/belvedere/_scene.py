@@ -33,7 +33,7 @@ def _toml(value: Any, key: str) -> str:
         return "{ " + ", ".join(inside) + " }"
     if isinstance(value, os.PathLike):
         return _toml(os.fspath(value), key)
-    raise Error(key, f"is given a {type(value).__name__}", "a number, a text, a bool, a list or a dict")
+    raise Error(key, f"has a value of the type {type(value).__name__}", "a number, a text, a bool, a list or a dict")
 
 
 def _paths(paths: Path | Sequence[Path]) -> list[str]:
