@@ -25,12 +25,23 @@
 namespace belvedere::tools {
 namespace {
 
+constexpr std::size_t inferred_groups = 30;  // the default of `exemplar segment`
+
 struct StyleFitOptions : RunOptions {
   std::string painting, classes, out, report, name, origin, licence;
 };
 
 Grid<std::uint8_t> read_classes(const StyleFitOptions& options) {
   return read_class_mask(options.classes, {far_air_label});
+}
+
+// The classes that `exemplar segment` infers.
+Grid<std::uint8_t> inferred_classes(const std::string& painting, const Grid<glm::vec3>& picture,
+                                    const Grid<float>& alpha) {
+  const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, painting);
+  const std::size_t groups = std::min(segments.tree.pieces, inferred_groups);
+  return complete_sky(
+      class_mask(segments, cut_tree(segments.tree, groups), inferred_class_of(segments, groups)));
 }
 
 std::string as_text(const StyleFitOptions& options, const Style& style, std::size_t bytes) {
@@ -105,13 +116,10 @@ int run(const StyleFitOptions& options) {
 Style fit_painting(const Grid<glm::vec3>& picture, const Grid<float>& alpha,
                    Grid<std::uint8_t>& mask, const std::string& name,
                    const StyleFitParameters& parameters, Progress& progress) {
-  constexpr std::size_t inferred_groups = 30;  // as few as hold one class each: nobody corrects
   const bool inferred = mask.empty();
   if (inferred) {
     progress.begin("segmenting", 0.0);
-    const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, name);
-    const NamedGroups groups = name_groups(segments, inferred_groups, {});
-    mask = complete_sky(class_mask(segments, groups.of_pieces, groups.classes));
+    mask = inferred_classes(name, picture, alpha);
   }
   for (std::size_t i = 0; i < alpha.size() && alpha.same_size(mask); ++i)
     if (alpha[i] < 1.0F) mask[i] = unused_label;
