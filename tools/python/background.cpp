@@ -71,8 +71,6 @@ struct Protection {
   ~Protection() {
     if (--runs == 0) file_guard().clear();
   }
-  Protection(const Protection&) = delete;
-  Protection& operator=(const Protection&) = delete;
   inline static int runs = 0;
 };
 

@@ -49,7 +49,7 @@ class Scene(MutableMapping):
     checked when it is set, with the messages of `belvedere --set`. Lengths are metres of the scene's
     coordinate system, angles degrees. Parameters of all methods that take long: threads, 0 for all;
     memory_mib, 0 for three quarters of the machine's; cache, whether slow products are kept for the
-    next run; progress, see belvedere._progress.
+    next run; progress, see docs/python.md.
     """
 
     def __init__(self, scene: _belvedere.SceneText) -> None:
@@ -167,7 +167,7 @@ class Scene(MutableMapping):
         """What each pixel shows, without painting.
 
         width: px; default: the scene's. channels: names as in belvedere.channels(); default: all that a
-        picture has, about 200 bytes per pixel.
+        picture has, about 170 bytes per pixel.
         """
         width = self["output.width"] if width is None else width
         if width < 16:
