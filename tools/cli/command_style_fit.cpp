@@ -25,7 +25,7 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr std::size_t inferred_groups = 30;  // the default of `exemplar segment`
+constexpr std::size_t inferred_groups = 30;  // as few as hold one class each: nobody corrects them
 
 struct StyleFitOptions : RunOptions {
   std::string painting, classes, out, report, name, origin, licence;
@@ -39,9 +39,8 @@ Grid<std::uint8_t> read_classes(const StyleFitOptions& options) {
 Grid<std::uint8_t> inferred_classes(const std::string& painting, const Grid<glm::vec3>& picture,
                                     const Grid<float>& alpha) {
   const PaintingSegments segments = segment_painting(picture, alpha, usual_theta, painting);
-  const std::size_t groups = std::min(segments.tree.pieces, inferred_groups);
-  return complete_sky(
-      class_mask(segments, cut_tree(segments.tree, groups), inferred_class_of(segments, groups)));
+  const NamedGroups groups = name_groups(segments, inferred_groups, {});
+  return complete_sky(class_mask(segments, groups.of_pieces, groups.classes));
 }
 
 std::string as_text(const StyleFitOptions& options, const Style& style, std::size_t bytes) {
