@@ -107,31 +107,30 @@ struct Pass {
   glm::vec4 (*value)(const Rows&, const Ids&, std::size_t i);
 };
 
-using enum ChannelType;
 constexpr Pass passes[] = {
-    {"ViewLayer.Combined", "RGBA", half,
+    {"ViewLayer.Combined", "RGBA", ChannelType::half,
      [](const Rows& rows, const Ids&, std::size_t i) { return glm::vec4(rows.picture[i], 1.F); }},
-    {"ViewLayer.Depth", "Z", float32,
+    {"ViewLayer.Depth", "Z", ChannelType::float32,
      [](const Rows& rows, const Ids&, std::size_t i) {
        return glm::vec4(std::min(rows.guidance.depth_m[i], sky_depth_m));
      }},
-    {"ViewLayer.Position", "XYZ", float32,
+    {"ViewLayer.Position", "XYZ", ChannelType::float32,
      [](const Rows& rows, const Ids&, std::size_t i) {
        return on_ground(rows, rows.guidance.position_m, i);
      }},
-    {"ViewLayer.Normal", "XYZ", half,
+    {"ViewLayer.Normal", "XYZ", ChannelType::half,
      [](const Rows& rows, const Ids&, std::size_t i) {
        return on_ground(rows, rows.guidance.normal, i);
      }},
-    {"ViewLayer.Shadow", "RGB", half,
+    {"ViewLayer.Shadow", "RGB", ChannelType::half,
      [](const Rows& rows, const Ids&, std::size_t i) {
        return glm::vec4(rows.guidance.shadow[i]);
      }},
-    {"ViewLayer.AO", "RGB", half,
+    {"ViewLayer.AO", "RGB", ChannelType::half,
      [](const Rows& rows, const Ids&, std::size_t i) {
        return glm::vec4(rows.guidance.sky_view[i]);
      }},
-    {"ViewLayer.IndexMA", "X", half,
+    {"ViewLayer.IndexMA", "X", ChannelType::half,
      [](const Rows& rows, const Ids&, std::size_t i) {
        return glm::vec4(static_cast<float>(rows.guidance.land_cover[i]));
      }},
