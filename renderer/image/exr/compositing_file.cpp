@@ -134,8 +134,8 @@ constexpr Pass passes[] = {
      [](const Rows& rows, const Ids&, std::size_t i) {
        return glm::vec4(static_cast<float>(rows.guidance.land_cover[i]));
      }},
-    {"ViewLayer.CryptoLandCover00", "rgba", float32, land_cover_ranks},
-    {"ViewLayer.CryptoFeature00", "rgba", float32, feature_ranks}};
+    {"ViewLayer.CryptoLandCover00", "rgba", ChannelType::float32, land_cover_ranks},
+    {"ViewLayer.CryptoFeature00", "rgba", ChannelType::float32, feature_ranks}};
 
 // Each letter of each pass is a channel.
 struct PassChannel {

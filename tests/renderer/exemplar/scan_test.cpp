@@ -94,7 +94,8 @@ TEST_F(Scans, AMaskAloneGivesToneShadowAndBase) {
   const GuideStack& guides = scan.painted.exemplar.guides;
   std::vector<std::string> names;
   for (const Guide& each : guides.guides) names.push_back(each.name);
-  EXPECT_THAT(names, testing::UnorderedElementsAre("tone", "shadow", "fall_line_x", "fall_line_y"));
+  EXPECT_THAT(names, testing::UnorderedElementsAre("tone", "shadow", "fall_line_x", "fall_line_y",
+                                                   "valley"));
   EXPECT_EQ(guides.label(10, 5), unused_label) << "sky is painted, not copied";
   EXPECT_EQ(guides.label(10, 50), 8);
   const Grid<std::uint8_t> tone = guide(scan, "tone");

@@ -122,6 +122,7 @@ TEST(SceneTable, DerivedKeysAreAutoWhereNotWritten) {
       EXPECT_EQ(with("auto"), with("\"auto\"")) << name;
       const char* other = flag != nullptr                               ? "true"
                           : key.unit == "m" || key.name == "rim_fade_m" ? "1000"
+                          : key.name == "neighbourhood"                 ? "7"
                                                                         : "2";
       EXPECT_NE(with("auto"), with(other)) << name;
     }
