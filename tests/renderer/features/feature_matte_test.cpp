@@ -27,7 +27,7 @@ draw = "building"
 )",
                              "test.toml");
 }
-enum MatteKinds : int { road, run, building };
+enum MatteKinds : int { matte_road, matte_run, matte_building };
 
 class FeatureMatte : public testing::Test {
  protected:
@@ -51,29 +51,30 @@ class FeatureMatte : public testing::Test {
 };
 
 TEST_F(FeatureMatte, AKindCoversItsLinesWithTheirEdges) {
-  const DrawnFeatures features = drawn(ground_, {{road, {{-1500.0, 0.0}, {1500.0, 0.0}}}});
+  const DrawnFeatures features = drawn(ground_, {{matte_road, {{-1500.0, 0.0}, {1500.0, 0.0}}}});
   const Grid<MattePixel> matte = make_feature_matte(features, depth_m_, ground_.sheet());
   double covered = 0.0;
-  for (int y = 0; y < matte.height(); ++y) covered += share_of(matte(200, y), road) / 255.0;
+  for (int y = 0; y < matte.height(); ++y) covered += share_of(matte(200, y), matte_road) / 255.0;
   EXPECT_NEAR(covered, 12.0, 0.6) << "4 mm and two edges of 1 mm, at 2 px a mm";
 }
 
 // A road over a run 16 px wide: where its edge covers part of a pixel, both shares make the whole.
 TEST_F(FeatureMatte, WhatLiesOnTopHidesWhatIsBelow) {
-  const DrawnFeatures features = drawn(
-      ground_, {{road, {{-1500.0, 0.0}, {1500.0, 0.0}}}, {run, {{-1500.0, 0.0}, {1500.0, 0.0}}}});
+  const DrawnFeatures features = drawn(ground_, {{matte_road, {{-1500.0, 0.0}, {1500.0, 0.0}}},
+                                                 {matte_run, {{-1500.0, 0.0}, {1500.0, 0.0}}}});
   const Grid<MattePixel> matte = make_feature_matte(features, depth_m_, ground_.sheet());
   const int middle = static_cast<int>(ground_.pixel({0.0, 0.0, 0.0}).y);
-  EXPECT_EQ(share_of(matte(200, middle), road), 255);
-  EXPECT_EQ(share_of(matte(200, middle), run), 0);
+  EXPECT_EQ(share_of(matte(200, middle), matte_road), 255);
+  EXPECT_EQ(share_of(matte(200, middle), matte_run), 0);
   for (int y = middle - 7; y <= middle + 7; ++y)
-    EXPECT_NEAR(share_of(matte(200, y), road) + share_of(matte(200, y), run), 255, 2) << y;
-  EXPECT_EQ(share_of(matte(200, middle - 7), run), 255);
+    EXPECT_NEAR(share_of(matte(200, y), matte_road) + share_of(matte(200, y), matte_run), 255, 2)
+        << y;
+  EXPECT_EQ(share_of(matte(200, middle - 7), matte_run), 255);
 }
 
 TEST_F(FeatureMatte, AnyPartIsThatOfTheWhole) {
-  const DrawnFeatures features = drawn(ground_, {{road, {{-900.0, -500.0}, {900.0, 900.0}}},
-                                                 {run, {{-500.0, 900.0}, {700.0, 0.0}}}});
+  const DrawnFeatures features = drawn(ground_, {{matte_road, {{-900.0, -500.0}, {900.0, 900.0}}},
+                                                 {matte_run, {{-500.0, 900.0}, {700.0, 0.0}}}});
   const Grid<MattePixel> whole = make_feature_matte(features, depth_m_, ground_.sheet());
   const PixelRect part{131, 77, 290, 222};
   const ThreadLimit one(1);
@@ -89,7 +90,7 @@ TEST_F(FeatureMatte, AHouseCoversItsFaces) {
   features.net = {1, 1};
   features.lines_in.resize(1);
   features.houses_in = {{0}};
-  features.houses = {{.kind = building,
+  features.houses = {{.kind = matte_building,
                       .foot = {14.F, 20.F},
                       .distance_m = 1000.F,
                       .reach_px = 10.F,
@@ -103,7 +104,7 @@ TEST_F(FeatureMatte, AHouseCoversItsFaces) {
   for (const auto [x, y] : test::cells(30, 30)) {
     const bool high = y >= 14 && y < 20;
     const int expected = !high || x < 14 || x > 18 ? 0 : x == 18 ? 128 : 255;
-    EXPECT_EQ(share_of(matte(x, y), building), expected) << x << " " << y;
+    EXPECT_EQ(share_of(matte(x, y), matte_building), expected) << x << " " << y;
   }
 }
 
