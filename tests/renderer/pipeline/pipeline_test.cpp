@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
@@ -169,6 +170,37 @@ TEST_F(Pipeline, ColoursOfAPaintingReachTheBasePicture) {
   };
   EXPECT_GT(redness("painting"), 0.17);
   EXPECT_LT(redness("palette"), 0.15);
+}
+
+// T40: two painters with the same colours, one with level and one with upright strokes: in copies
+// of their paint on the same ground, lightness changes more from row to row and from column to
+// column.
+TEST_F(Pipeline, CopiesOfTwoPaintersAreToldApart) {
+  std::string classes;
+  for (const auto [x, y] : test::cells(176, 80)) classes += static_cast<char>(x / 16 + 1);
+  test::write_bytes(out("classes.png"), test::make_png(176, 80, 8, 0, classes));
+  // Mean squared step from row to row over that from column to column, on the ground.
+  const auto levelness = [&](const std::string& name, int dot_width, int dot_height) {
+    Grid<glm::vec3> painting(176, 80);
+    for (const auto [x, y] : test::cells(176, 80))
+      painting(x, y) = glm::vec3(
+          0.35F + 0.3F * static_cast<float>(random_uniform(5, x / dot_width, y / dot_height)));
+    write_png8(out(name + ".png"), painting, {});
+    render(scene({"exemplar.0={ picture = \"" + name +
+                      ".png\", classes = \"classes.png\", stroke_px = 12 }",
+                  "output.width=120", "output.height=80", "output.sheet_width_mm=120"}),
+           out(name), {.cache = test::shared_cache()});
+    const Grid<glm::vec3> picture = read_picture(out(name) + "/panorama.png");
+    const GuidanceBuffers guidance = read_guidance(out(name) + "/guidance.exr");
+    double rows = 0.0, columns = 0.0;
+    for (const auto [x, y] : test::cells(119, 79)) {
+      if (guidance.is_sky(guidance.depth_m.index(x, y))) continue;
+      rows += std::pow(static_cast<double>(picture(x, y + 1).y - picture(x, y).y), 2.0);
+      columns += std::pow(static_cast<double>(picture(x + 1, y).y - picture(x, y).y), 2.0);
+    }
+    return rows / columns;
+  };
+  EXPECT_GT(levelness("level", 8, 1), 1.3 * levelness("upright", 1, 8));
 }
 
 TEST_F(Pipeline, LooksAsItDid) { expect_golden(rendered_ + "/panorama.png", "small_panorama.png"); }

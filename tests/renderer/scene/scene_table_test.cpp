@@ -126,7 +126,7 @@ TEST(SceneTable, DerivedKeysAreAutoWhereNotWritten) {
                                                                         : "2";
       EXPECT_NE(with("auto"), with(other)) << name;
     }
-  EXPECT_EQ(derived, 17);
+  EXPECT_EQ(derived, 18);
   EXPECT_THAT(scene_reference(),
               HasSubstr("| `exaggeration` | a number or \"auto\"; 0.1 … 10 | `\"auto\"` |"));
 }
