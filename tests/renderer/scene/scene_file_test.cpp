@@ -438,7 +438,8 @@ TEST(SceneFile, ScenesOfTheProgramAreRead) {
                   "Karwendel after Segantini", "Karwendel: roads, railways and ways",
                   "Ötztal Alps: a synthetic winter map", "Lolo Peak", "Mountains after Monet",
                   "Mount Rainier", "Zion Canyon", "Ötztal Alps", "Mount Ararat",
-                  "Lost River Range, as if on Ararat"));
+                  "Lost River Range, as if on Ararat", "Karwendel, copied from Segantini",
+                  "Coast after Monet"));
 }
 
 }  // namespace
