@@ -125,7 +125,8 @@ std::string describe_needed_texels(const NeededClassTexels& demand) {
                                        grouped(available.pixels), grouped(available.serves()))
                          : fmt::format(
                                "too few, strokes will repeat: {} pixels need it, {} can be served; "
-                               "{} texels would be needed, there are {}",
+                               "{} texels would be needed, there are {}; a style (belvedere style "
+                               "fit) paints any size without repeating",
                                grouped(available.pixels), grouped(available.serves()),
                                grouped(available.texels_needed()), grouped(available.texels));
   for (const NeededClassTexels::Guide& guide : demand.guides)
