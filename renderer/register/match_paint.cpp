@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -282,54 +281,6 @@ Grid<double> paint_evidence(const Grid<glm::vec3>& paint, const RegisteredGround
     }
   });
   return out;
-}
-
-namespace {
-
-bool is_silhouette(const RegisteredGround& ground, int x, int y) {
-  const float above = ground.distance_m(x, y), below = ground.distance_m(x, y + 1);
-  if (std::isnan(above) || std::isnan(below)) return std::isnan(above) != std::isnan(below);
-  return std::max(above, below) > silhouette_jump * std::min(above, below);
-}
-
-// Contrast of the paint between a row and the next.
-Grid<float> edges_below(const Grid<glm::vec3>& paint) {
-  Grid<float> out(paint.width(), paint.height());
-  parallel_rows(paint.height(), [&](int y) {
-    for (int x = 0; x < paint.width(); ++x)
-      out(x, y) = glm::length(paint.clamped(x, y - 1) + paint(x, y) - paint.clamped(x, y + 1) -
-                              paint.clamped(x, y + 2));
-  });
-  return out;
-}
-
-}  // namespace
-
-EdgeAgreement edge_agreement(const Grid<glm::vec3>& paint, const RegisteredGround& ground) {
-  const int near = std::max(1, paint.width() / 400), reach = std::max(4, 3 * paint.width() / 100);
-  const Grid<float> edges = edges_below(paint);
-  const auto strongest = [&](int x, int y) {
-    float out = 0.F;
-    for (int dy = -near; dy <= near; ++dy) out = std::max(out, edges(x, y + dy));
-    return out;
-  };
-  double sum = 0.0, count = 0.0;
-  for (int y = reach + near; y + reach + near < paint.height(); ++y)
-    for (int x = 0; x < paint.width(); ++x) {
-      if (!is_silhouette(ground, x, y)) continue;
-      const float here = strongest(x, y);
-      double weaker = 0.0, compared = 0.0;
-      for (int dy = 2 * near + 1; dy <= reach; ++dy)
-        for (const float other : {strongest(x, y - dy), strongest(x, y + dy)}) {
-          weaker += other < here ? 1.0 : other > here ? 0.0 : 0.5;
-          ++compared;
-        }
-      sum += weaker / compared;
-      ++count;
-    }
-  if (count == 0.0) return {};
-  const double pieces = std::max(1.0, count / std::max(1.0, paint.width() / 50.0));
-  return {sum / count, std::sqrt(1.0 / (12.0 * pieces))};
 }
 
 }  // namespace belvedere

@@ -42,16 +42,4 @@ std::vector<PaintMatch> match_paint(const Grid<glm::vec3>& paint, const Register
 Grid<double> paint_evidence(const Grid<glm::vec3>& paint, const RegisteredGround& ground,
                             const MatchPaintParameters& parameters);
 
-// How well edges of the paint follow the skyline and the silhouettes of the ground's picture.
-struct EdgeAgreement {
-  double rank = 0.5;  // 0…1: mean share of the rows near by whose edge is weaker; half by chance
-  double deviation = 1.0;  // standard deviation of the rank if it is by chance
-};
-
-// Compares each pixel above which the ground's picture has a silhouette with the rows up to 3 % of
-// the width above and below, in the contrast of two rows to the next two (OKLab); a shift of a
-// four-hundredth of the width counts as none. Neither light nor palette matter. Pieces of a
-// fiftieth of the width are taken as independent.
-EdgeAgreement edge_agreement(const Grid<glm::vec3>& paint, const RegisteredGround& ground);
-
 }  // namespace belvedere

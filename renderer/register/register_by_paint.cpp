@@ -141,19 +141,6 @@ DrawnGround likeliest_ground(const Registration& registration, const Grid<glm::v
   return best;
 }
 
-// Whether edges of the paint follow the silhouettes of `other` clearly better.
-bool edges_prefer(const Registration& other, const Registration& one, const Grid<glm::vec3>& paint,
-                  glm::ivec2 painting_px, const Dem& dem, Progress& progress) {
-  constexpr double clear = 3.0;  // standard deviations
-  const auto agreement = [&](const Registration& registration) {
-    return edge_agreement(paint, trace_registered(RegisteredView(
-                                     registration, registered_scene(registration, painting_px), dem,
-                                     {paint.width(), paint.height()}, progress)));
-  };
-  const EdgeAgreement a = agreement(one), b = agreement(other);
-  return b.rank - a.rank > clear * exact::hypot(a.deviation, b.deviation);
-}
-
 }  // namespace
 
 PaintRegistration register_by_paint(const Registration& from_pairs,
@@ -176,23 +163,14 @@ PaintRegistration register_by_paint(const Registration& from_pairs,
     for (float& sigma : seen.sigma_px) sigma /= static_cast<float>(px);
     MatchPaintParameters parameters = round.match;
     parameters.independent_px2 = independent_px2(width);
-    const Grid<glm::vec3> paint = reduced_oklab(painting, size);
-    const std::vector<PaintMatch> matches = match_paint(paint, seen, parameters);
+    const std::vector<PaintMatch> matches =
+        match_paint(reduced_oklab(painting, size), seen, parameters);
     constexpr std::size_t min_matches = 8;
     if (matches.size() < min_matches) continue;
     Registration start = out.registration;
     start.valleys_m = ground.valleys_m;
-    const std::vector<PaintedPlace> places = painted_places(matches, seen, px);
-    std::optional<Registration> better = refine_registration(start, ground.drawn(pairs), places);
-    if (first) {
-      std::optional<Registration> rejudged =
-          refine_registration(start, ground.drawn(pairs), places, PairTrust::rejudged);
-      if (rejudged && edges_prefer(*rejudged, better ? *better : out.registration, paint,
-                                   painting_px, ground.dem, progress)) {
-        better = std::move(rejudged);
-        out.mended = true;
-      }
-    }
+    std::optional<Registration> better =
+        refine_registration(start, ground.drawn(pairs), painted_places(matches, seen, px));
     if (better) {
       out.registration = *std::move(better);
       out.matches = matches.size();

@@ -35,18 +35,14 @@ struct PaintRegistration {
   int rounds = 0;           // that the pairs accepted, of three
   std::size_t matches = 0;  // places of the last of them that were found in the paint
   DrawnGround ground = {};  // on which the registration's places lie
-  bool mended = false;      // the pairs were judged afresh, as edges of the paint demanded
 };
 
 // Improves a registration by the painting itself: three times, with smaller patches each time, the
 // ground is traced as it is registered, its patches are found in the paint (match_paint), and the
 // registration is fitted again with them (refine_registration). After the first round the ground
 // may change to one with wider valleys, by 150, 300 or 450 m: that which the paint shows best
-// (paint_evidence). A round that makes the pairs' own leave-one-out worse is left out, and so is
-// one that needs a wider painting (400, 600 and 600 px). A first fit that is wrong keeps wrong
-// pairs: in the first round all pairs are judged afresh by what was found in the paint as well, and
-// that counts if edges of the paint follow its skyline and silhouettes clearly better
-// (edge_agreement).
+// (paint_evidence). A round that makes the pairs' own
+// leave-one-out worse is left out, and so is one that needs a wider painting (400, 600 and 600 px).
 PaintRegistration register_by_paint(const Registration& from_pairs,
                                     std::span<const ControlPair> pairs,
                                     const Grid<glm::vec3>& painting, const Dem& dem,

@@ -239,18 +239,16 @@ std::vector<ControlPair> at_fitted_size(std::span<const ControlPair> given, doub
   return pairs;
 }
 
-// The pairs that were kept and places found in the paint, weighed as the registration has them; or
-// all of them alike.
+// The pairs that were kept and places found in the paint, weighed as the registration has them.
 WeighedPairs start_of(const Registration& registration, const std::vector<ControlPair>& pairs,
-                      std::span<const PaintedPlace> painted, PairTrust trust) {
-  const bool alike = trust == PairTrust::rejudged;
+                      std::span<const PaintedPlace> painted) {
   const double sigma = registration.sigma_px / registration.scale;
   WeighedPairs start;
   start.fit.frame = registration.frame;
   start.fit.view = registration.view;
   start.fit.mountains = registration.mountains;
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (alike || !registration.findings[i].wrong) add_pair(start, pairs, i, sigma);
+    if (!registration.findings[i].wrong) add_pair(start, pairs, i, sigma);
   const DisplacementField field(registration.displacement);
   const HandleField handles(handles_of(registration.mountains));
   for (const PaintedPlace& match : painted) {
@@ -266,37 +264,9 @@ WeighedPairs start_of(const Registration& registration, const std::vector<Contro
         square(off.y) / (square(unsure.upward_m * seen.px_per_m.upward_m) + square(noise.y));
     start.fit.pairs.push_back(place);
     start.fit.noise_px.push_back(noise);
-    start.fit.weights.push_back(alike ? 1.0 : weight_of(deviations2));
+    start.fit.weights.push_back(weight_of(deviations2));
   }
   return start;
-}
-
-// Far from what all the others say.
-bool is_far_off(const PairJudgement& judgement, std::size_t i, double sigma_px) {
-  constexpr double cut_deviations = 5.0, cut_sigmas = 4.0;
-  return judgement.deviations[i] > cut_deviations && judgement.others_px[i] > cut_sigmas * sigma_px;
-}
-
-// Throws out the pairs that are far off, all at once, and weighs again, until none is; `max` at
-// most.
-void throw_out(WeighedPairs& fitted, double sigma_px, std::size_t max) {
-  constexpr int rounds = 6;
-  const std::size_t least = fitted.index.size() - std::min(max, fitted.index.size());
-  for (int round = 0; round < rounds; ++round) {
-    const PairJudgement judgement = fitted.judgement;
-    bool any = false;
-    for (std::size_t i = fitted.index.size(); i-- > 0 && fitted.index.size() > least;) {
-      if (fitted.fit.pairs[i].sure || !is_far_off(judgement, i, sigma_px)) continue;
-      const auto at = static_cast<std::ptrdiff_t>(i);
-      fitted.fit.pairs.erase(fitted.fit.pairs.begin() + at);
-      fitted.fit.noise_px.erase(fitted.fit.noise_px.begin() + at);
-      fitted.fit.weights.erase(fitted.fit.weights.begin() + at);
-      fitted.index.erase(fitted.index.begin() + at);
-      any = true;
-    }
-    if (!any) return;
-    weigh_by_agreement(fitted, sigma_px, 2);
-  }
 }
 
 void check_sigma(std::optional<double> sigma_px) {
@@ -312,7 +282,7 @@ Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 paint
   if (given.size() < min_fitted_pairs)
     throw Error(ErrorKind::usage, "pairs", fmt::format("{} pairs", given.size()),
                 fmt::format("{} or more", min_fitted_pairs));
-  constexpr double max_wrong = 0.25;
+  constexpr double cut_deviations = 5.0, cut_sigmas = 4.0, max_wrong = 0.25;
   constexpr int choose_every = 3;
   Registration out;
   out.scale = painting_px.x / fitted_width_px;
@@ -337,14 +307,17 @@ Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 paint
     progress.advance(0.0);
     set_noise(fit, choice.sigma_px);
     judgement = refine_pairs(fit, choice.sigma_px, 2);
-    const auto far_off = [&](std::size_t i) { return is_far_off(judgement, i, choice.sigma_px); };
+    const auto is_far_off = [&](std::size_t i) {
+      return judgement.deviations[i] > cut_deviations &&
+             judgement.others_px[i] > cut_sigmas * choice.sigma_px;
+    };
     std::optional<std::size_t> worst;
     for (std::size_t i = 0; i < fit.pairs.size(); ++i) {
       PairFinding& finding = out.findings[index[i]];
       finding.others_px = judgement.others_px[i];
       finding.deviations = judgement.deviations[i];
-      finding.doubted = far_off(i) && fit.pairs[i].sure;
-      if (far_off(i) && !fit.pairs[i].sure &&
+      finding.doubted = is_far_off(i) && fit.pairs[i].sure;
+      if (is_far_off(i) && !fit.pairs[i].sure &&
           (!worst || judgement.deviations[i] > judgement.deviations[*worst]))
         worst = i;
     }
@@ -360,19 +333,16 @@ Registration register_pairs(std::span<const ControlPair> given, glm::ivec2 paint
 
 std::optional<Registration> refine_registration(const Registration& registration,
                                                 std::span<const ControlPair> given,
-                                                std::span<const PaintedPlace> painted,
-                                                PairTrust trust) {
-  const bool rejudged = trust == PairTrust::rejudged;
+                                                std::span<const PaintedPlace> painted) {
   const double sigma = registration.sigma_px / registration.scale;
   const std::vector<ControlPair> pairs = at_fitted_size(given, registration.scale);
-  const WeighedPairs start = start_of(registration, pairs, painted, trust);
+  const WeighedPairs start = start_of(registration, pairs, painted);
   std::optional<WeighedPairs> best;
   for (const double length : {0.06, 0.12}) {
     WeighedPairs tried = start;
     tried.fit.field = field_of_extent(start.fit.frame.extent_m, length);
     constexpr int rounds = 4;
     weigh_by_agreement(tried, sigma, rounds);
-    if (rejudged) throw_out(tried, sigma, pairs.size() / 2);
     if (!is_plausible(tried.fit.frame, tried.fit.view, tried.fit.pairs)) continue;
     if (!best || tried.judgement.score > best->judgement.score) best = std::move(tried);
   }
@@ -381,8 +351,7 @@ std::optional<Registration> refine_registration(const Registration& registration
   // `hopeless`.
   constexpr double chance = 1.0, hopeless = 20.0;
   const auto loses = [&](double limit) {
-    return !rejudged &&
-           mean_score(*best) < registration.score - limit / static_cast<double>(best->index.size());
+    return mean_score(*best) < registration.score - limit / static_cast<double>(best->index.size());
   };
   if (loses(hopeless)) return std::nullopt;
   move_mountains(*best, sigma);

@@ -73,21 +73,13 @@ struct PaintedPlace {
   glm::dvec2 sigma_px{1.0};  // of its pixel, standard deviation, > 0
 };
 
-// What becomes of the pairs' own judgement.
-enum class PairTrust {
-  kept,     // those that were kept must be told no worse
-  rejudged  // all are judged afresh by what the paint shows, up to half of them thrown out
-};
-
 // Registers again with places that were found in the paint beside the pairs. They count the less
 // the less they agree with the others (Student's t with 4 degrees of freedom); pairs keep a quarter
-// of their weight, and one that was thrown out comes back if it agrees now. Nothing if no painting
-// is seen like that, or if the others then tell the kept pairs worse than before: the paint was
-// misread. Rejudged pairs do not refuse: the caller asks the paint which registration is right.
+// of their weight, and one that was thrown out comes back if it agrees now. Nothing if the others
+// then tell the kept pairs worse than before: the paint was misread.
 std::optional<Registration> refine_registration(const Registration& registration,
                                                 std::span<const ControlPair> pairs,
-                                                std::span<const PaintedPlace> painted,
-                                                PairTrust trust = PairTrust::kept);
+                                                std::span<const PaintedPlace> painted);
 
 // The painting's pixel that shows a place.
 glm::dvec2 registered_pixel(const Registration& registration, const DisplacementField& field,

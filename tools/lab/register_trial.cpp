@@ -117,7 +117,6 @@ struct Trial {
   std::size_t matches = 0;
   std::optional<CoverTrial> cover;
   double valleys_m = 0.0;
-  bool mended = false;
 };
 
 Trial run_trial(const SecretScene& scene, const SecretPairs& secret, const TrialOptions& options,
@@ -143,7 +142,6 @@ Trial run_trial(const SecretScene& scene, const SecretPairs& secret, const Trial
     out.rounds = by_paint.rounds;
     out.matches = by_paint.matches;
     out.valleys_m = found.valleys_m;
-    out.mended = by_paint.mended;
     const std::string truth = fmt::format("{}/out_{}/guidance.exr", options.paint, name);
     if (options.classes)
       out.cover = try_cover(found, painting, std::make_shared<const Dem>(*scene.dem), truth);
@@ -294,13 +292,12 @@ int measure_registration(int argc, char** argv) {
             "{:10} {:2} {:11} {:2.0f} % moved, {} draw {}: view {:.1f} / {:.0f}, field {:.1f} / "
             "{:.0f}, still {:.1f}, moved {:.1f}, wrong {} of {}, thrown {}, sigma {:.1f}, {} "
             "rounds, "
-            "{} matches, valleys {:.0f} of {:.0f} m{}\n",
+            "{} matches, valleys {:.0f} of {:.0f} m\n",
             region.name, i, scene.camera.projection, 100.0 * scene.moved_share,
             scene.widened_m > 0.0 ? "wide" : "    ", draw, median(trial.view_px),
             percentile(trial.view_px, 0.9), median(trial.all_px), percentile(trial.all_px, 0.9),
             median(trial.still_px), median(trial.moved_px), trial.found, trial.wrong, trial.thrown,
-            trial.sigma_px, trial.rounds, trial.matches, trial.valleys_m, scene.widened_m,
-            trial.mended ? ", mended" : "");
+            trial.sigma_px, trial.rounds, trial.matches, trial.valleys_m, scene.widened_m);
         if (trial.cover)
           fmt::print("  treeline {:.0f}, snow line {:.0f}{}: IoU / right {}\n",
                      trial.cover->lines.treeline_m, trial.cover->lines.snowline_m,

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "base/random.h"
 #include "base/statistics.h"
@@ -94,38 +93,6 @@ TEST(MatchPaint, TheSkyHasNoEvidence) {
   const Grid<double> evidence = paint_evidence(painted_hills({0.0, 0.0}, 0.03F), ground, example);
   EXPECT_TRUE(std::isnan(evidence(3, 1)));
   EXPECT_FALSE(std::isnan(evidence(3, 3)));
-}
-
-// A skyline below row 39, and paint that is pale down to a row.
-EdgeAgreement agreement_of_skyline(int last_pale_row) {
-  constexpr int columns = 100, rows = 80;
-  const float sky = std::numeric_limits<float>::quiet_NaN();
-  RegisteredGround ground;
-  ground.altitude_m = ground.distance_m = test::grid_of(
-      columns, rows, [&](int, int y) { return y < 40 ? static_cast<double>(sky) : 5000.0; });
-  Grid<glm::vec3> paint(columns, rows, glm::vec3(0.9F, 0.F, 0.F));
-  for (const auto [x, y] : test::cells(columns, rows))
-    if (y > last_pale_row) paint(x, y) = glm::vec3(0.4F, 0.05F, 0.05F);
-  return edge_agreement(paint, ground);
-}
-
-// The rows that are compared are 3 and 4 above and below (a hundred columns: 3 % of the width, four
-// at least; one row off counts as none).
-TEST(EdgeAgreement, IsOneWhereThePaintHasTheSkylineAndLessWhereItIsNear) {
-  EXPECT_DOUBLE_EQ(agreement_of_skyline(39).rank, 1.0);
-  EXPECT_DOUBLE_EQ(agreement_of_skyline(40).rank, 1.0);
-  // Three rows lower: both rows above are as even as the skyline's own, both below have the edge.
-  EXPECT_DOUBLE_EQ(agreement_of_skyline(42).rank, 0.25);
-  // Beyond the reach all is even.
-  EXPECT_DOUBLE_EQ(agreement_of_skyline(60).rank, 0.5);
-  // 100 pixels in pieces of 2: the mean of 50 even ranks, each with a variance of 1 / 12.
-  EXPECT_NEAR(agreement_of_skyline(39).deviation, std::sqrt(1.0 / 600.0), 1e-12);
-}
-
-TEST(EdgeAgreement, GroundWithoutSilhouettesTellsNothing) {
-  const EdgeAgreement none = edge_agreement(painted_hills({0.0, 0.0}, 0.02F), hill_ground());
-  EXPECT_EQ(none.rank, 0.5);
-  EXPECT_EQ(none.deviation, 1.0);
 }
 
 }  // namespace

@@ -200,33 +200,6 @@ TEST(Registration, FewPairsSayHowLittleTheyKnow) {
   EXPECT_THROW(register_pairs(painted_pairs(4, 1.0, false, truth), {1200, 550}), Error);
 }
 
-// A first fit that looks 20 px beside the truth, kept three wrong pairs and threw out good ones:
-// what the paint shows everywhere turns all of it about.
-TEST(RefineRegistration, PairsAreJudgedAfreshByWhatThePaintShows) {
-  test::SyntheticView truth;
-  std::vector<ControlPair> pairs = painted_pairs(40, 0.0, false, truth);
-  Registration first =
-      register_pairs(pairs, {1200, 550}, {.view = {.kinds = {ViewKind::plane}}, .sigma_px = 2.0});
-  ASSERT_EQ(count_wrong(first), 0U);
-  first.view[view_unknown::azimuth] += 20.0 / 950.0;
-  const auto distance_px = [&](const Registration& found) {
-    return median(distances_px(found, truth, false, false));
-  };
-  EXPECT_GT(distance_px(first), 15.0);
-  for (const std::size_t wrong : {3U, 17U, 31U}) pairs[wrong].pixel.x += 120.0;
-  for (std::size_t i = 4; i < 12; ++i) first.findings[i].wrong = true;
-  std::vector<PaintedPlace> painted;
-  for (ControlPair& place : test::synthetic_places(60, 9)) {
-    place.pixel = test::pixel_of(truth, place);
-    painted.push_back({place, {2.5, 2.5}});
-  }
-  const auto found = refine_registration(first, pairs, painted, PairTrust::rejudged);
-  ASSERT_TRUE(found);
-  EXPECT_LT(distance_px(*found), 2.0);
-  EXPECT_EQ(count_wrong(*found), 3U);
-  for (const std::size_t wrong : {3U, 17U, 31U}) EXPECT_TRUE(found->findings[wrong].wrong) << wrong;
-}
-
 TEST(Registration, EndsWhenItIsNoLongerWanted) {
   class Unwanted : public Progress {
    public:
