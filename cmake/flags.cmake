@@ -1,7 +1,9 @@
 # How everything of ours is compiled: an interface target that each of our targets links privately; nobody else is compiled so.
 add_library(belvedere_flags INTERFACE)
 target_compile_options(belvedere_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+  -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -Woverloaded-virtual
+  # Warnings are errors to the compilers of Debian 12, by which it is developed; later ones warn of more, and users have to build.
+  $<$<OR:$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>,$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,15>>>:-Werror>
   # In a batch the anonymous namespaces of other files count as outer scopes; Clang cannot tell these from local ones.
   $<IF:$<BOOL:${BELVEDERE_BATCHES}>,$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow>
   # GCC takes the batch for the main file, and warns of types of the files in it that hold something of an anonymous namespace.
