@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import sys
+import warnings
 import time
 from typing import Any, Callable, Union
 
@@ -35,7 +36,9 @@ class Display:
 
     def _show(self, stage: str, share: float | None) -> None:
         try:
-            from tqdm.auto import tqdm
+            with warnings.catch_warnings():  # without ipywidgets a notebook gets bars of text, and a warning that looks like a fault
+                warnings.simplefilter("ignore")
+                from tqdm.auto import tqdm
         except ImportError:
             self._stage = stage
             print(f"\r\033[K{stage}" + ("" if share is None else f" {share:4.0%}"), end="", file=sys.stderr, flush=True)
