@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import logging
 import sys
-import warnings
 import time
+import warnings
 from typing import Any, Callable, Union
 
 # True: a bar; False: nothing; "auto": a bar in a terminal and in a notebook, of work that takes longer than a second; or a function that
