@@ -124,8 +124,8 @@ SynthesisParameters fit_to_paintings(const Scene& scene, const std::vector<Exemp
                                      Progress& progress) {
   // A guide that explains this share of the paint, or more, costs a random texel of the class this
   // price, about that of a patch that does not fit. On the made painting of GuidesAtWork, with all
-  // guides, the rank correlation of distances is .93, and .89 of shaded ground is from shaded paint.
-  // Of shadow half a difference does not exist, so it needs more.
+  // guides, the rank correlation of distances is .93, and .89 of shaded ground is from shaded
+  // paint. Of shadow half a difference does not exist, so it needs more.
   constexpr double full_share = 0.1;
   constexpr double full_price = 70000.0;
   constexpr double full_shadow_price = 160000.0;
