@@ -1,6 +1,7 @@
 """The parts of others that the program is built of, with their licences: cmake/parts.csv.
 
-Columns: part; what CMake knows it by; beginnings of the names of its libraries, none for headers and fonts; Debian package it is built with;
+Columns: part; what CMake knows it by; beginnings of the names of its libraries, none for headers and fonts, with
+? if the program loads them on some systems only; Debian package it is built with;
 licence as SPDX writes it.
 """
 import csv
@@ -20,7 +21,7 @@ def parts():
 def part_of(library):
     """The part that a library of this file name (libgdal.so.32) belongs to; None: it is in no row."""
     stem = library.split(".so")[0]
-    return next((part for part in parts() if stem in part["library"].split()), None)
+    return next((part for part in parts() if stem in part["library"].rstrip("?").split()), None)
 
 
 def check_parts():
