@@ -9,6 +9,7 @@ Written for Blender 3.4 (Debian 12).
 """
 import argparse
 import math
+import os
 import sys
 
 import bpy
@@ -29,7 +30,12 @@ def arguments():
     parser.add_argument("--tint", type=float, nargs=3, default=(2.1, 0.95, 0.45), metavar=("R", "G", "B"),
                         help="factors of the recoloured classes, linear light (%(default)s)")
     parser.add_argument("--blend", help="also save the nodes as a .blend file")
-    return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
+    options = parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
+    inputs = [os.path.realpath(path) for path in (options.guidance, options.picture)]
+    for written in filter(None, (options.out, options.blend)):
+        if os.path.realpath(written) in inputs:
+            parser.error(f"{written} is read by this command: name another file to write")
+    return options
 
 
 class Graph:

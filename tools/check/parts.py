@@ -1,8 +1,7 @@
 """The parts of others that the program is built of, with their licences: cmake/parts.csv.
 
-Columns: part; what CMake knows it by; beginnings of the names of its libraries, none for headers and fonts, with
-? if the program loads them on some systems only; Debian package it is built with;
-licence as SPDX writes it.
+Columns: part; what CMake knows it by; beginnings of the names of its libraries, none for headers and fonts, with a ?
+after them if the program loads them on some systems only; Debian package it is built with; licence as SPDX writes it.
 """
 import csv
 import re

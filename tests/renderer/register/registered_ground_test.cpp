@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "renderer/scene/scene_file.h"
 #include "renderer/trace/camera.h"
@@ -81,15 +82,21 @@ TEST(RegisteredGround, TrustFadesToTheLimit) {
   EXPECT_GT(picture(2, 0).z, 0.75F);
 }
 
-// Ground of the DEM is seen where the painting has it, at half its size.
-TEST(RegisteredView, ShowsPlacesWhereThePaintingDoes) {
-  const Dem dem = make_dem({test::grid_of(200, 200, [](int, int y) { return 1500.0 - 5.0 * y; }),
-                            {660000.0, 5280000.0, 250.0, 250.0},
-                            normalize_crs("EPSG:32632")});
+// A plane that falls to the south, and pairs of it in a painting.
+std::pair<Dem, std::vector<ControlPair>> tilted_ground() {
+  Dem dem = make_dem({test::grid_of(200, 200, [](int, int y) { return 1500.0 - 5.0 * y; }),
+                      {660000.0, 5280000.0, 250.0, 250.0},
+                      normalize_crs("EPSG:32632")});
   std::vector<ControlPair> pairs = test::synthetic_places(40);
   for (ControlPair& pair : pairs)
     pair.altitude_m = 1500.0 - 5.0 * dem.transform.to_cell(0.0, pair.position.y).y;
   test::paint(test::synthetic_view(ViewKind::plane, pairs), pairs);
+  return {std::move(dem), std::move(pairs)};
+}
+
+// Ground of the DEM is seen where the painting has it, at half its size.
+TEST(RegisteredView, ShowsPlacesWhereThePaintingDoes) {
+  const auto [dem, pairs] = tilted_ground();
   const Registration found = register_pairs(pairs, {1200, 550});
   const RegisteredView view(found, registered_scene(found, {1200, 550}), dem, {600, 275},
                             silent_progress());
@@ -139,13 +146,7 @@ Registration synthetic_registration(ViewKind kind, double scale) {
 
 // A mountain in the middle of the picture that was not moved, as far as is known.
 TEST(RegisteredGround, IsLessSureOnAMountainWhoseMoveIsOpen) {
-  const Dem dem = make_dem({test::grid_of(200, 200, [](int, int y) { return 1500.0 - 5.0 * y; }),
-                            {660000.0, 5280000.0, 250.0, 250.0},
-                            normalize_crs("EPSG:32632")});
-  std::vector<ControlPair> pairs = test::synthetic_places(40);
-  for (ControlPair& pair : pairs)
-    pair.altitude_m = 1500.0 - 5.0 * dem.transform.to_cell(0.0, pair.position.y).y;
-  test::paint(test::synthetic_view(ViewKind::plane, pairs), pairs);
+  const auto [dem, pairs] = tilted_ground();
   Registration found = register_pairs(pairs, {1200, 550});
   const auto trace = [&] {
     return trace_registered(RegisteredView(found, registered_scene(found, {1200, 550}), dem,
